@@ -1,0 +1,35 @@
+//! Questions about a triangle mesh in space: what does a ray meet, which triangles cross, how far is it along the
+//! surface, which way does the surface face.
+//!
+//! Everything here takes plain slices: positions by vertex, triangles as three vertex numbers. What depends only on the
+//! triangles is computed once and kept ([`Bvh`] the tree's shape, [`SurfaceDistance`] and [`VertexNormals`] which
+//! triangles meet at a vertex); positions are passed to each question, since they change many times a second while a
+//! handle is dragged.
+//!
+//! | object | built once | each question |
+//! |---|---|---|
+//! | [`Bvh`] | O(n log n) | [`refit`](Bvh::refit) O(n); a ray O(log n) |
+//! | [`crossings()`] | – | O(n log n) plus the pairs of boxes that overlap |
+//! | [`SurfaceDistance`] | O(n) | O(k log k) for k vertices returned |
+//! | [`VertexNormals`] | O(n) | O(n), parallel |
+//!
+//! **Broken input never panics.** A triangle that names a vertex past the end, or has a corner that is not finite,
+//! counts as absent; a triangle without area is met by no ray and crosses nothing.
+
+mod bounds;
+mod bvh;
+mod crossings;
+mod incidence;
+mod ray;
+mod surface_distance;
+mod tree;
+mod vertex_normals;
+
+#[cfg(test)]
+mod test_shapes;
+
+pub use bvh::Bvh;
+pub use crossings::crossings;
+pub use ray::{Hit, Ray};
+pub use surface_distance::SurfaceDistance;
+pub use vertex_normals::VertexNormals;

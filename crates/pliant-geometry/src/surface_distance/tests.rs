@@ -1,0 +1,155 @@
+use super::*;
+use crate::test_shapes::{Noise, sphere, square};
+use std::f32::consts::PI;
+
+fn nearest_triangle(positions: &[Vec3], triangles: &[[u32; 3]], point: Vec3) -> u32 {
+    let center = |t: &[u32; 3]| t.iter().map(|&v| positions[v as usize]).sum::<Vec3>() / 3.0;
+    let by_distance = |i: &u32| center(&triangles[*i as usize]).distance_squared(point);
+    (0..triangles.len() as u32)
+        .min_by(|a, b| by_distance(a).total_cmp(&by_distance(b)))
+        .expect("not empty")
+}
+
+#[test]
+fn on_a_plane_distances_are_straight_lines_on_any_triangulation() {
+    // Jitter up to 0.25 flips no triangle but leaves some almost flat, with corners near 180°. Stretched cells 1 : 4 too.
+    for (jitter, stretch) in [(0.0, 1.0), (0.2, 1.0), (0.25, 1.0), (0.2, 0.25)] {
+        let (mut positions, triangles) = square(41, jitter, &mut Noise(3));
+        positions.iter_mut().for_each(|p| p.y *= stretch);
+        let point = Vec3::new(0.41, 0.53 * stretch, 0.0);
+        let source = nearest_triangle(&positions, &triangles, point);
+        let radius = 0.35 * stretch;
+        let mut distances = SurfaceDistance::new(positions.len(), &triangles);
+        let point = triangles[source as usize]
+            .iter()
+            .map(|&v| positions[v as usize])
+            .sum::<Vec3>()
+            / 3.0;
+        let found = distances.within(&positions, &triangles, source, point, radius);
+        for &(v, got) in &found {
+            let expected = positions[v as usize].distance(point);
+            assert!(
+                (got - expected).abs() <= 0.01 * radius,
+                "vertex {v} at jitter {jitter}: got {got}, expected {expected}"
+            );
+        }
+        let n_expected = positions
+            .iter()
+            .filter(|p| p.distance(point) <= radius * 0.99)
+            .count();
+        assert!(
+            found.len() >= n_expected,
+            "jitter {jitter}: {} of {n_expected}",
+            found.len()
+        );
+        assert!(found.is_sorted_by(|a, b| a.1 <= b.1), "nearest first");
+    }
+}
+
+#[test]
+fn on_a_sphere_distances_follow_great_circles() {
+    let (points, triangles) = sphere(40, 80);
+    let positions: Vec<Vec3> = points.iter().map(|p| p.as_vec3()).collect();
+    let mut distances = SurfaceDistance::new(positions.len(), &triangles);
+    for target in [Vec3::new(0.3, 0.8, 0.5), Vec3::Z, Vec3::new(1.0, 0.0, 0.1)] {
+        let source = nearest_triangle(&positions, &triangles, target.normalize());
+        let v = triangles[source as usize][0];
+        let found = distances.within(&positions, &triangles, source, positions[v as usize], 4.0);
+        assert_eq!(found.len(), positions.len(), "all of the sphere");
+        for (u, got) in found {
+            let expected = positions[u as usize].angle_between(positions[v as usize]);
+            assert!(
+                (got - expected).abs() <= 0.03 * PI,
+                "vertex {u} from {v}: got {got}, expected {expected}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_sheet_near_in_space_but_far_on_the_surface_is_not_reached() {
+    // Two squares 0.01 apart: not connected, then joined along the far border x = 1.
+    let (one, triangles_one) = square(21, 0.2, &mut Noise(5));
+    let n = one.len() as u32;
+    let lifted = one.iter().map(|p| *p + Vec3::Z * 0.01);
+    let positions: Vec<Vec3> = one.iter().copied().chain(lifted).collect();
+    let mut triangles = triangles_one.clone();
+    triangles.extend(triangles_one.iter().map(|t| t.map(|v| v + n)));
+    let point = Vec3::new(0.1, 0.5, 0.0);
+    let source = nearest_triangle(&positions, &triangles, point);
+    let mut apart = SurfaceDistance::new(positions.len(), &triangles);
+    let found = apart.within(&positions, &triangles, source, point, 100.0);
+    assert_eq!(found.len(), n as usize, "one sheet and all of it");
+    assert!(
+        found.iter().all(|&(v, _)| v < n),
+        "no vertex of the other sheet"
+    );
+
+    let border: Vec<u32> = (0..21).map(|j| 20 * 21 + j).collect();
+    triangles.extend(
+        border
+            .windows(2)
+            .flat_map(|w| [[w[0], w[1], w[0] + n], [w[1], w[1] + n, w[0] + n]]),
+    );
+    let mut joined = SurfaceDistance::new(positions.len(), &triangles);
+    assert!(
+        joined
+            .within(&positions, &triangles, source, point, 0.85)
+            .iter()
+            .all(|&(v, _)| v < n)
+    );
+    let found = joined.within(&positions, &triangles, source, point, 2.5);
+    let above = found
+        .iter()
+        .find(|&&(v, _)| v == n + 2 * 21 + 10)
+        .expect("reached around the border");
+    // 0.9 to the border, 0.01 across and 0.9 back, give or take the jitter of one cell.
+    assert!((above.1 - 1.81).abs() < 0.05, "got {}", above.1);
+}
+
+#[test]
+fn questions_do_not_disturb_each_other() {
+    let (positions, triangles) = square(31, 0.3, &mut Noise(9));
+    let mut used = SurfaceDistance::new(positions.len(), &triangles);
+    used.epoch = u32::MAX - 20;
+    for i in 0..40 {
+        let source = i * 37 % triangles.len() as u32;
+        let point = positions[triangles[source as usize][1] as usize];
+        let fresh = SurfaceDistance::new(positions.len(), &triangles)
+            .within(&positions, &triangles, source, point, 0.2);
+        assert_eq!(
+            used.within(&positions, &triangles, source, point, 0.2),
+            fresh,
+            "question {i}"
+        );
+    }
+}
+
+#[test]
+fn broken_surfaces_and_questions_give_what_can_be_reached() {
+    let positions = [
+        Vec3::ZERO,
+        Vec3::X,
+        Vec3::Y,
+        Vec3::NAN,
+        Vec3::ZERO,
+        Vec3::X * 2.0,
+    ];
+    let triangles = [[0, 1, 2], [1, 2, 3], [0, 0, 4], [1, 5, 1], [2, 9, 1]];
+    let mut distances = SurfaceDistance::new(positions.len(), &triangles);
+    let found = distances.within(&positions, &triangles, 0, Vec3::ZERO, 5.0);
+    assert_eq!(found, [(0, 0.0), (4, 0.0), (1, 1.0), (2, 1.0), (5, 2.0)]);
+    for (triangle, point, radius) in [
+        (1, Vec3::ZERO, 1.0),
+        (99, Vec3::ZERO, 1.0),
+        (0, Vec3::NAN, 1.0),
+        (0, Vec3::ZERO, -1.0),
+        (0, Vec3::ZERO, f32::NAN),
+    ] {
+        assert_eq!(
+            distances.within(&positions, &triangles, triangle, point, radius),
+            [],
+            "{triangle} {point} {radius}"
+        );
+    }
+}
