@@ -1,0 +1,166 @@
+//! Draws a [`ViewScene`] into an offscreen picture. Long-lived pipelines and buffers here, what is seen in the scene.
+//!
+//! One pass: background, surface (with or without edges), ground grid, lines, dots twice (dimmed, then in full where nothing
+//! hides them), lines on top. Depth is a reversed float. Colors are encoded to sRGB in the shaders, since sRGB views of a plain target
+//! are not to be had everywhere, and so blending happens on encoded colors, as in the rest of the window.
+
+mod colors;
+mod layouts;
+mod marks;
+mod pipelines;
+mod readback;
+mod stream;
+mod surface;
+mod targets;
+mod uniforms;
+
+use super::{GpuError, ViewScene};
+use layouts::Layouts;
+use marks::Marks;
+use pipelines::{Modules, Pipelines};
+use surface::Surface;
+use targets::Targets;
+use uniforms::Picture;
+
+/// Samples a pixel that suit an adapter: 4, or 1 where the processor draws.
+pub fn samples_for(info: &wgpu::AdapterInfo) -> u32 {
+    if info.device_type == wgpu::DeviceType::Cpu {
+        1
+    } else {
+        4
+    }
+}
+
+/// Long-lived pipelines and buffers; draws offscreen into `Rgba8Unorm` with gamma encoded in the shader.
+pub struct Renderer {
+    device: wgpu::Device,
+    queue: wgpu::Queue,
+    layouts: Layouts,
+    modules: Modules,
+    pipelines: Pipelines,
+    uniforms: wgpu::Buffer,
+    group: wgpu::BindGroup,
+    surface: Surface,
+    marks: Marks,
+    targets: Targets,
+    generation: u64,
+    shown: Option<ViewScene>,
+}
+
+impl Renderer {
+    /// Compiles everything. `samples` a pixel: 4 or more gives 4, anything less 1 (see [`samples_for`]).
+    pub fn new(device: &wgpu::Device, queue: &wgpu::Queue, samples: u32) -> Renderer {
+        let layouts = Layouts::new(device);
+        let modules = Modules::new(device, &layouts);
+        let samples = supported(samples);
+        let (uniforms, group) = layouts.picture_group(device);
+        Renderer {
+            pipelines: Pipelines::new(device, &layouts, &modules, samples),
+            surface: Surface::new(device, &layouts),
+            marks: Marks::new(),
+            targets: Targets::new(device, [1, 1], samples),
+            device: device.clone(),
+            queue: queue.clone(),
+            layouts,
+            modules,
+            uniforms,
+            group,
+            generation: 0,
+            shown: None,
+        }
+    }
+
+    /// Changes the samples a pixel, for example to refine a picture that stands still. Costs new pipelines and targets, and so a new
+    /// generation of the view, when the number differs.
+    pub fn set_samples(&mut self, samples: u32) {
+        let samples = supported(samples);
+        if samples != self.targets.samples {
+            self.pipelines = Pipelines::new(&self.device, &self.layouts, &self.modules, samples);
+            self.replace_targets(self.targets.size, samples);
+        }
+    }
+
+    /// Draws if anything changed since the last call. Returns the picture's view and its generation: a new number means a new view
+    /// (after a change of size), for `update_egui_texture_from_wgpu_texture`. A size beyond the device's is clamped.
+    pub fn render(&mut self, scene: &ViewScene, size_px: [u32; 2]) -> (&wgpu::TextureView, u64) {
+        let most = self.device.limits().max_texture_dimension_2d;
+        let size = size_px.map(|side| side.clamp(1, most));
+        let resized = size != self.targets.size || self.generation == 0;
+        if resized {
+            self.replace_targets(size, self.targets.samples);
+        }
+        let unchanged = self
+            .shown
+            .as_ref()
+            .is_some_and(|shown| shown.same_picture(scene));
+        if !unchanged {
+            self.upload(scene);
+        }
+        if resized || !unchanged {
+            self.queue.write_buffer(
+                &self.uniforms,
+                0,
+                bytemuck::bytes_of(&Picture::new(scene, size)),
+            );
+            self.draw(scene);
+            self.shown = Some(scene.clone());
+        }
+        (&self.targets.color_view, self.generation)
+    }
+
+    /// Reads the last picture back as tightly packed sRGB RGBA8; a fully transparent one (and a log line) if the device fails.
+    pub fn read_pixels(&self) -> image::RgbaImage {
+        self.try_read_pixels().unwrap_or_else(|error| {
+            log::error!("{error}");
+            image::RgbaImage::new(self.targets.size[0], self.targets.size[1])
+        })
+    }
+
+    /// Reads the last picture back as tightly packed sRGB RGBA8. Waits for the device.
+    ///
+    /// # Errors
+    /// [`GpuError::Unreadable`] when the device fails.
+    pub fn try_read_pixels(&self) -> Result<image::RgbaImage, GpuError> {
+        readback::read(&self.device, &self.queue, &self.targets)
+    }
+
+    fn replace_targets(&mut self, size: [u32; 2], samples: u32) {
+        self.targets = Targets::new(&self.device, size, samples);
+        self.generation += 1;
+        self.shown = None;
+    }
+
+    /// Brings what differs from the last picture to the device.
+    fn upload(&mut self, scene: &ViewScene) {
+        let (device, queue) = (&self.device, &self.queue);
+        self.surface.upload(device, queue, &self.layouts, scene);
+        self.marks.upload(device, queue, scene);
+    }
+
+    fn draw(&self, scene: &ViewScene) {
+        let mut encoder = self
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor {
+                label: Some("viewport"),
+            });
+        {
+            let mut pass = self.targets.begin(&mut encoder);
+            pass.set_bind_group(0, &self.group, &[]);
+            pass.set_pipeline(&self.pipelines.background);
+            pass.draw(0..3, 0..1);
+            self.surface
+                .draw(&mut pass, &self.pipelines, scene.wireframe);
+            if scene.grid {
+                pass.set_pipeline(&self.pipelines.grid);
+                pass.draw(0..4, 0..1);
+            }
+            self.marks.draw(&mut pass, &self.pipelines);
+        }
+        self.queue.submit([encoder.finish()]);
+    }
+}
+
+/// 1 and 4 are the numbers of samples every device has.
+fn supported(samples: u32) -> u32 {
+    if samples >= 4 { 4 } else { 1 }
+}

@@ -1,0 +1,145 @@
+//! What one picture shows. Values and shared arrays only: the renderer finds out what changed by comparing pointers.
+
+use super::Camera;
+use glam::Vec3;
+use std::sync::Arc;
+
+/// Positions and unit normals of the surface points at one moment, ready for upload. World units, one entry a vertex.
+#[derive(Clone, Debug, Default)]
+pub struct SurfaceFrame {
+    /// Where each vertex is.
+    pub positions: Vec<Vec3>,
+    /// Which way the surface faces at each vertex. If the count differs from the positions', the surface is shaded flat.
+    pub normals: Vec<Vec3>,
+}
+
+/// How a triangle's light is found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shading {
+    /// From the vertex normals: a smooth surface.
+    Smooth,
+    /// From the triangle itself: facets.
+    Flat,
+}
+
+/// What colors the surface.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Coloring {
+    /// The base colors.
+    Plain,
+    /// r of each vertex through the rigidity ramp.
+    Rigidity,
+    /// One value a vertex in 0..=1 through the heat ramp.
+    Energy,
+}
+
+/// Dark or light surroundings.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Theme {
+    /// A light surface before a dark ground.
+    Dark,
+    /// A slightly darker surface before a light ground.
+    Light,
+}
+
+/// An outlined disc of constant size on screen; dimmed where the surface hides it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dot {
+    /// Its center in the world.
+    pub position: Vec3,
+    /// sRGB and opacity.
+    pub color: [u8; 4],
+    /// Radius in points, without the outline.
+    pub radius_px: f32,
+}
+
+/// A straight line of constant width on screen: brush circle, gizmo.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Line {
+    /// One end in the world.
+    pub a: Vec3,
+    /// The other end.
+    pub b: Vec3,
+    /// sRGB and opacity.
+    pub color: [u8; 4],
+    /// Width in points.
+    pub width_px: f32,
+    /// Drawn over everything; otherwise hidden behind the surface.
+    pub on_top: bool,
+}
+
+/// Everything one picture shows. Cheap to clone; the renderer uploads only arrays it has not seen (compared by pointer).
+#[derive(Clone)]
+pub struct ViewScene {
+    /// Corners of each triangle, counterclockwise from outside.
+    pub triangles: Arc<[[u32; 3]]>,
+    /// Positions and normals.
+    pub frame: Arc<SurfaceFrame>,
+    /// r of each vertex, for [`Coloring::Rigidity`].
+    pub rigidity: Arc<[u16]>,
+    /// One value a vertex in 0..=1, for [`Coloring::Energy`].
+    pub values: Option<Arc<[f32]>>,
+    /// One flag a vertex: tinted as selected.
+    pub selected: Option<Arc<[bool]>>,
+    /// Base color of each vertex (linear), seen plain and through a ramp that is not opaque. `None`: clay.
+    pub base_colors: Option<Arc<[[u8; 4]]>>,
+    /// Handles, anchors and the like.
+    pub dots: Arc<[Dot]>,
+    /// Brush circle, gizmo and the like.
+    pub lines: Arc<[Line]>,
+    /// What colors the surface.
+    pub coloring: Coloring,
+    /// r at the ramp's end (the ramp starts at 1).
+    pub ramp_max: u16,
+    /// How much the ramp covers the base color, 0..=1.
+    pub color_opacity: f32,
+    /// Smooth or facets.
+    pub shading: Shading,
+    /// Edges of the triangles over the surface.
+    pub wireframe: bool,
+    /// A faint grid on the ground, at the bounds' floor.
+    pub grid: bool,
+    /// Dark or light surroundings.
+    pub theme: Theme,
+    /// From where.
+    pub camera: Camera,
+    /// Smallest and largest corner of the current surface: fits depth and places the grid.
+    pub bounds: (Vec3, Vec3),
+    /// Physical pixels in a point: sizes of dots and lines follow it.
+    pub pixels_per_point: f32,
+}
+
+impl ViewScene {
+    /// Would both give the same picture? Arrays are the same if they are the same allocation.
+    pub(super) fn same_picture(&self, other: &ViewScene) -> bool {
+        Arc::ptr_eq(&self.triangles, &other.triangles)
+            && Arc::ptr_eq(&self.frame, &other.frame)
+            && self.same_colors(other)
+            && Arc::ptr_eq(&self.dots, &other.dots)
+            && Arc::ptr_eq(&self.lines, &other.lines)
+            && self.shading == other.shading
+            && (self.wireframe, self.grid) == (other.wireframe, other.grid)
+            && self.camera == other.camera
+            && self.bounds == other.bounds
+            && self.pixels_per_point == other.pixels_per_point
+    }
+
+    /// Would both color the vertices alike?
+    pub(super) fn same_colors(&self, other: &ViewScene) -> bool {
+        Arc::ptr_eq(&self.rigidity, &other.rigidity)
+            && same(&self.values, &other.values)
+            && same(&self.selected, &other.selected)
+            && same(&self.base_colors, &other.base_colors)
+            && (self.ramp_max, self.color_opacity) == (other.ramp_max, other.color_opacity)
+            && (self.theme, &self.coloring) == (other.theme, &other.coloring)
+    }
+}
+
+/// The same allocation, or none on both sides.
+fn same<T: ?Sized>(a: &Option<Arc<T>>, b: &Option<Arc<T>>) -> bool {
+    match (a, b) {
+        (Some(a), Some(b)) => Arc::ptr_eq(a, b),
+        (None, None) => true,
+        _ => false,
+    }
+}

@@ -1,0 +1,67 @@
+// Light on the surface. Three soft lights move with the camera, so that form reads from every side: a key from the upper left,
+// a fill from the right, a rim from behind; sky and ground of the world tell up from down.
+
+const KEY_DIRECTION = vec3f(-0.466, 0.621, 0.630);
+const FILL_DIRECTION = vec3f(0.844, 0.074, 0.531);
+const RIM_DIRECTION = vec3f(0.348, 0.753, -0.557);
+// Key light reaches this far (as a cosine) past the terminator: a large, soft lamp.
+const KEY_WRAP = 0.28;
+const SHININESS = 38.0;
+const SPECULAR = 0.16;
+
+struct Lit {
+    @builtin(position) clip: vec4f,
+    @location(0) view: vec3f,
+    @location(1) normal: vec3f,
+    // linear color; alpha: how much selected
+    @location(2) color: vec4f,
+}
+
+fn lit_vertex(position: vec3f, normal: vec3f, color: vec4f) -> Lit {
+    let view = view_from_world(position);
+    let turned = picture.view_from_world * vec4f(normal, 0.0);
+    return Lit(clip_from_view(view), view, turned.xyz, vec4f(linear_from_srgb(color.rgb), color.a));
+}
+
+// Toward the eye, unit length.
+fn toward_eye(view: vec3f) -> vec3f {
+    return select(normalize(-view), vec3f(0.0, 0.0, 1.0), picture.modes.x > 0.5);
+}
+
+// The facing normal: of the vertices, or of the triangle where those are unusable or facets are asked for.
+fn shading_normal(in: Lit, eye: vec3f, facet: vec3f, front: bool) -> vec3f {
+    let size = dot(in.normal, in.normal);
+    let flat_shaded = picture.modes.y > 0.5 || !(size > 1e-30);
+    let smooth_normal = in.normal * inverseSqrt(max(size, 1e-30)) * select(-1.0, 1.0, front);
+    let outward = facet * select(-1.0, 1.0, dot(facet, eye) >= 0.0);
+    return normalize(select(smooth_normal, outward, flat_shaded));
+}
+
+fn wrapped(cosine: f32, wrap: f32) -> f32 {
+    let soft = max((cosine + wrap) / (1.0 + wrap), 0.0);
+    return soft * soft * (1.0 - wrap) + soft * wrap;
+}
+
+// Light leaving the surface toward the eye, linear.
+fn shade(in: Lit, front: bool) -> vec3f {
+    let eye = toward_eye(in.view);
+    let facet = cross(dpdx(in.view), dpdy(in.view));
+    let normal = shading_normal(in, eye, facet * inverseSqrt(max(dot(facet, facet), 1e-37)), front);
+
+    var albedo = mix(in.color.rgb, picture.accent.rgb, in.color.a * picture.accent.a);
+    if !front {
+        albedo = mix(albedo, picture.back_tint.rgb, picture.back_tint.a);
+    }
+
+    let world_up = normalize(picture.view_from_world[1].xyz);
+    let up = 0.5 + 0.5 * dot(normal, world_up);
+    var light = mix(picture.ground.rgb, picture.sky.rgb, up);
+    light += picture.key.rgb * wrapped(dot(normal, KEY_DIRECTION), KEY_WRAP);
+    light += picture.fill.rgb * max(dot(normal, FILL_DIRECTION), 0.0);
+
+    let grazing = 1.0 - max(dot(normal, eye), 0.0);
+    let rim = picture.rim.rgb * grazing * grazing * grazing * smoothstep(-0.3, 0.6, dot(normal, RIM_DIRECTION));
+    let halfway = normalize(eye + KEY_DIRECTION);
+    let gloss = select(0.3, 1.0, front) * SPECULAR * pow(max(dot(normal, halfway), 0.0), SHININESS);
+    return albedo * light + rim + picture.key.rgb * gloss;
+}
