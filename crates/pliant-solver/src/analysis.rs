@@ -1,0 +1,194 @@
+//! What depends on the mesh and the weights alone.
+//!
+//! Vertices and edges are renumbered along a Hilbert curve, component by component, so that every later pass walks
+//! memory nearly in order. Callers never see this numbering: [`Solver`](crate::Solver) translates at its border.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use crate::hilbert::Curve;
+use crate::system::Pattern;
+use crate::weights::edge_weights;
+use crate::{Mesh, Weights};
+
+/// Edges per block of prefix sums. Short enough that a difference of two sums within a block keeps twelve digits of a
+/// neighborhood's own sum; long enough that few runs are cut.
+const BLOCK: usize = 512;
+
+/// Locality (Hilbert) order, edge weights, rest edge vectors, fill-reducing order and symbolic factorization.
+/// O(n log n); once per mesh and kind of weights.
+pub struct Analysis {
+    mesh: Arc<Mesh>,
+    weights: Weights,
+    pub(crate) layout: Layout,
+    pub(crate) pattern: Arc<Pattern>,
+    /// Place of each edge's value in the pattern.
+    pub(crate) slots: Vec<u32>,
+}
+
+/// One edge as seen from one of its ends.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Spoke {
+    /// The vertex at the other end.
+    pub(crate) vertex: u32,
+    /// The edge.
+    pub(crate) edge: u32,
+}
+
+/// The mesh in the internal numbering.
+pub(crate) struct Layout {
+    /// Internal number of each of the caller's vertices, and back.
+    pub(crate) to_internal: Vec<u32>,
+    pub(crate) to_caller: Vec<u32>,
+    /// Rest positions p.
+    pub(crate) rest: Vec<DVec3>,
+    /// Component of each vertex, as numbered by the mesh.
+    pub(crate) component: Vec<u32>,
+    /// Ends (i, j) with i < j.
+    pub(crate) edges: Vec<[u32; 2]>,
+    /// e = p_i − p_j and w_ij of each edge.
+    pub(crate) edge_rest: Vec<DVec3>,
+    pub(crate) weight: Vec<f64>,
+    /// Spokes of vertex v: `spokes[offsets[v]..offsets[v + 1]]`, by ascending edge.
+    pub(crate) offsets: Vec<u32>,
+    pub(crate) spokes: Vec<Spoke>,
+    /// Block b has edges `blocks[b]..blocks[b + 1]`; no block has edges of two components.
+    pub(crate) blocks: Vec<u32>,
+    pub(crate) block_of_edge: Vec<u32>,
+}
+
+impl Analysis {
+    /// Orders, weighs and analyzes. The costly part is the fill-reducing order.
+    pub fn new(mesh: Arc<Mesh>, weights: Weights) -> Analysis {
+        let layout = Layout::new(&mesh, edge_weights(&mesh, weights));
+        let (pattern, slots) = Pattern::new(layout.n_vertices(), &layout.edges);
+        Analysis { mesh, weights, layout, pattern: Arc::new(pattern), slots }
+    }
+
+    /// The mesh that was analyzed.
+    pub fn mesh(&self) -> &Arc<Mesh> {
+        &self.mesh
+    }
+
+    /// The kind of weights in use.
+    pub fn weights(&self) -> Weights {
+        self.weights
+    }
+}
+
+impl Layout {
+    fn new(mesh: &Mesh, mesh_weights: Vec<f64>) -> Layout {
+        let curve = Curve::around(mesh.positions());
+        let to_caller = vertex_order(mesh, &curve);
+        let mut to_internal = vec![0u32; to_caller.len()];
+        for (internal, &caller) in to_caller.iter().enumerate() {
+            to_internal[caller as usize] = internal as u32;
+        }
+        let rest: Vec<DVec3> = to_caller.iter().map(|&v| mesh.positions()[v as usize]).collect();
+        let component: Vec<u32> = to_caller.iter().map(|&v| mesh.components()[v as usize]).collect();
+
+        let order = edge_order(mesh, &curve);
+        let edges: Vec<[u32; 2]> = order
+            .iter()
+            .map(|&e| {
+                let [a, b] = mesh.edges()[e as usize].map(|v| to_internal[v as usize]);
+                [a.min(b), a.max(b)]
+            })
+            .collect();
+        let weight = order.iter().map(|&e| mesh_weights[e as usize]).collect();
+        let edge_rest = edges.iter().map(|&[i, j]| rest[i as usize] - rest[j as usize]).collect();
+        let (offsets, spokes) = spokes(rest.len(), &edges);
+        let (blocks, block_of_edge) = blocks(&edges, &component);
+        Layout {
+            to_internal,
+            to_caller,
+            rest,
+            component,
+            edges,
+            edge_rest,
+            weight,
+            offsets,
+            spokes,
+            blocks,
+            block_of_edge,
+        }
+    }
+
+    pub(crate) fn n_vertices(&self) -> usize {
+        self.rest.len()
+    }
+
+    pub(crate) fn n_edges(&self) -> usize {
+        self.edges.len()
+    }
+
+    pub(crate) fn n_blocks(&self) -> usize {
+        self.blocks.len() - 1
+    }
+
+    /// The edges at vertex `v`.
+    pub(crate) fn spokes(&self, v: usize) -> &[Spoke] {
+        &self.spokes[self.offsets[v] as usize..self.offsets[v + 1] as usize]
+    }
+}
+
+/// Vertices by component, then along the curve, then by number.
+fn vertex_order(mesh: &Mesh, curve: &Curve) -> Vec<u32> {
+    let mut keyed: Vec<(u32, u64, u32)> = (0..mesh.n_vertices())
+        .map(|v| (mesh.components()[v], curve.position(mesh.positions()[v]), v as u32))
+        .collect();
+    keyed.sort_unstable();
+    keyed.into_iter().map(|key| key.2).collect()
+}
+
+/// Edges by component, then along the curve by midpoint, then by number.
+fn edge_order(mesh: &Mesh, curve: &Curve) -> Vec<u32> {
+    let mut keyed: Vec<(u32, u64, u32)> = mesh
+        .edges()
+        .iter()
+        .enumerate()
+        .map(|(e, &[a, b])| {
+            let middle = mesh.positions()[a as usize].midpoint(mesh.positions()[b as usize]);
+            (mesh.components()[a as usize], curve.position(middle), e as u32)
+        })
+        .collect();
+    keyed.sort_unstable();
+    keyed.into_iter().map(|key| key.2).collect()
+}
+
+fn spokes(n_vertices: usize, edges: &[[u32; 2]]) -> (Vec<u32>, Vec<Spoke>) {
+    let mut offsets = vec![0u32; n_vertices + 1];
+    for end in edges.iter().flatten() {
+        offsets[*end as usize + 1] += 1;
+    }
+    for v in 0..n_vertices {
+        offsets[v + 1] += offsets[v];
+    }
+    let mut next = offsets.clone();
+    let mut spokes = vec![Spoke { vertex: 0, edge: 0 }; 2 * edges.len()];
+    for (edge, &[i, j]) in edges.iter().enumerate() {
+        for (here, there) in [(i, j), (j, i)] {
+            spokes[next[here as usize] as usize] = Spoke { vertex: there, edge: edge as u32 };
+            next[here as usize] += 1;
+        }
+    }
+    (offsets, spokes)
+}
+
+fn blocks(edges: &[[u32; 2]], component: &[u32]) -> (Vec<u32>, Vec<u32>) {
+    let mut bounds = vec![0u32];
+    let mut block_of_edge = Vec::with_capacity(edges.len());
+    for e in 0..edges.len() {
+        let first = bounds[bounds.len() - 1] as usize;
+        let component_of = |e: usize| component[edges[e][0] as usize];
+        if e - first == BLOCK || component_of(e) != component_of(first) {
+            bounds.push(e as u32);
+        }
+        block_of_edge.push(bounds.len() as u32 - 1);
+    }
+    if !edges.is_empty() {
+        bounds.push(edges.len() as u32);
+    }
+    (bounds, block_of_edge)
+}

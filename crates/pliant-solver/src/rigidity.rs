@@ -1,0 +1,72 @@
+//! Neighborhood sizes, one per vertex.
+
+use std::sync::Arc;
+
+use crate::RigidityError;
+
+/// Neighborhood size r ≥ 1 of every vertex, in rings of edges. Immutable, cheap to clone.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Rigidity(Arc<[u16]>);
+
+impl Rigidity {
+    /// The largest size. By eye: far beyond the diameter of what moves at interactive rates.
+    pub const MAX: u16 = 1000;
+
+    /// The same size for all; an `r` outside 1..=[`Rigidity::MAX`] is brought to the nearest end.
+    pub fn uniform(n_vertices: usize, r: u16) -> Rigidity {
+        Rigidity(vec![r.clamp(1, Self::MAX); n_vertices].into())
+    }
+
+    /// One size per vertex.
+    ///
+    /// # Errors
+    /// [`RigidityError::OutOfRange`] for the first value outside 1..=[`Rigidity::MAX`].
+    pub fn new(r: Vec<u16>) -> Result<Rigidity, RigidityError> {
+        match r.iter().position(|r| !(1..=Self::MAX).contains(r)) {
+            Some(vertex) => Err(RigidityError::OutOfRange { vertex, r: r[vertex], max: Self::MAX }),
+            None => Ok(Rigidity(r.into())),
+        }
+    }
+
+    /// One size per vertex, in the caller's numbering.
+    pub fn as_slice(&self) -> &[u16] {
+        &self.0
+    }
+
+    /// The smallest size (1 for an empty list).
+    pub fn min(&self) -> u16 {
+        self.0.iter().copied().min().unwrap_or(1)
+    }
+
+    /// The largest size (1 for an empty list).
+    pub fn max(&self) -> u16 {
+        self.0.iter().copied().max().unwrap_or(1)
+    }
+
+    /// The mean size (1 for an empty list).
+    pub fn mean(&self) -> f64 {
+        if self.0.is_empty() {
+            return 1.0;
+        }
+        self.0.iter().map(|&r| f64::from(r)).sum::<f64>() / self.0.len() as f64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_outside_the_range_are_refused_by_vertex() {
+        let refused = Rigidity::new(vec![1, 2, 0, 5]);
+        assert_eq!(refused, Err(RigidityError::OutOfRange { vertex: 2, r: 0, max: Rigidity::MAX }));
+        assert!(Rigidity::new(vec![1, Rigidity::MAX + 1]).is_err());
+    }
+
+    #[test]
+    fn statistics_are_those_of_the_values() {
+        let r = Rigidity::new(vec![1, 2, 6]).expect("in range");
+        assert_eq!((r.min(), r.max(), r.mean()), (1, 6, 3.0));
+        assert_eq!(Rigidity::uniform(3, 0), Rigidity::uniform(3, 1));
+    }
+}

@@ -1,0 +1,328 @@
+//! The solver as callers see it: a factored system with a pose, in the caller's numbering.
+
+use std::sync::Arc;
+
+use glam::{DMat3, DVec3};
+
+use crate::analysis::Analysis;
+use crate::energy::{NOISE, ZERO_BELOW, vertex_energies};
+use crate::held::Held;
+use crate::iteration::{LocalOutcome, Pose, Rings, Workspace};
+use crate::mesh::is_usable;
+use crate::system::{FactorError, System};
+use crate::{LooseComponents, Neighborhoods, Rigidity, SolveError, Start, VertexId, Weights};
+
+/// What one iteration achieved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepReport {
+    /// Energy of eq. (1) after the local step. It is exactly 0 where it could not be told from rounding.
+    pub energy: f64,
+    /// Iterations since the last [`Solver::start`].
+    pub iteration: u64,
+    /// (E before − E after) / E before (3.2.3); 0 when E before = 0. The first iteration after a change of targets, held
+    /// vertices, rigidity, pose or start has nothing to compare with and reports 1, or 0 when E = 0.
+    pub relative_decrease: f64,
+}
+
+/// A factored system with a pose. All inputs and outputs are in the caller's vertex numbering.
+///
+/// | call | cost |
+/// |---|---|
+/// | `new` | assembles and factors |
+/// | `set_rigidity` | neighborhoods of changed vertices, numeric refactor, one local step |
+/// | `set_held` | numeric refactor |
+/// | `set_targets` | copies; nothing is factored |
+/// | `set_pose` | copies; one local step |
+/// | `start` | `Keep`, `Rest`: copies; `Auto`: up to twelve iterations and one solve |
+/// | `step` | one local/global iteration; no factorization, no allocation |
+///
+/// Every call that can fail leaves the solver as it was when it does.
+pub struct Solver {
+    pub(crate) analysis: Arc<Analysis>,
+    pub(crate) rings: Rings,
+    rigidity: Rigidity,
+    policy: LooseComponents,
+    pub(crate) held: Held,
+    /// Values of the matrix that is factored.
+    values: Vec<f64>,
+    pub(crate) system: System,
+    pub(crate) pose: Pose,
+    pub(crate) workspace: Workspace,
+    pub(crate) energy: f64,
+    /// Energy of the previous iteration, if it belongs to the same targets, held vertices and rigidity.
+    pub(crate) comparable: Option<f64>,
+    pub(crate) iteration: u64,
+}
+
+impl Solver {
+    /// `held`: vertices with a prescribed position, targets at rest until [`Solver::set_targets`]. The pose is the rest
+    /// pose.
+    ///
+    /// # Errors
+    /// [`SolveError::NoHandles`], `HeldOutOfRange`, `HeldTwice` for `held`; `WrongLength` for `rigidity`;
+    /// `Indefinite` with raw weights; `TooLarge` if the factor does not fit into memory.
+    pub fn new(
+        analysis: Arc<Analysis>,
+        neighborhoods: Neighborhoods,
+        rigidity: &Rigidity,
+        held: &[VertexId],
+        loose: LooseComponents,
+    ) -> Result<Solver, SolveError> {
+        let layout = &analysis.layout;
+        if neighborhoods.r.len() != layout.n_vertices() {
+            let (got, expected) = (neighborhoods.r.len(), layout.n_vertices());
+            return Err(SolveError::WrongLength { what: "neighborhoods", got, expected });
+        }
+        // Nothing is searched for if the neighborhoods are those of `rigidity`.
+        let rings = Rings::new(layout, neighborhoods.updated(&analysis, rigidity)?);
+        let held = Held::new(layout, held, &layout.rest, loose)?;
+        let system = System::new(analysis.pattern.clone()).map_err(|error| explain(&analysis, error))?;
+        let mut workspace = Workspace::new(layout);
+        workspace.fit(layout, &rings);
+        let mut solver = Solver {
+            rigidity: rigidity.clone(),
+            policy: loose,
+            values: Vec::new(),
+            system,
+            pose: Pose::at_rest(&layout.rest),
+            workspace,
+            energy: 0.0,
+            comparable: None,
+            iteration: 0,
+            rings,
+            held,
+            analysis,
+        };
+        let values = solver.assemble(&solver.rings.stiffness, &solver.held.is_fixed);
+        solver.factor(values)?;
+        Ok(solver)
+    }
+
+    /// Other neighborhood sizes. Positions stay; rotations and energy become those of the new neighborhoods.
+    ///
+    /// # Errors
+    /// [`SolveError::WrongLength`], `Indefinite`, `TooLarge`. On error the solver is as it was.
+    pub fn set_rigidity(&mut self, rigidity: &Rigidity) -> Result<(), SolveError> {
+        if *rigidity == self.rigidity {
+            return Ok(());
+        }
+        let rings = Rings::new(&self.analysis.layout, self.rings.neighborhoods.updated(&self.analysis, rigidity)?);
+        let values = self.assemble(&rings.stiffness, &self.held.is_fixed);
+        self.factor(values)?;
+        self.rings = rings;
+        self.rigidity = rigidity.clone();
+        self.workspace.fit(&self.analysis.layout, &self.rings);
+        self.refresh();
+        Ok(())
+    }
+
+    /// Other held vertices. The pose stays, and the targets are the current positions of the vertices until
+    /// [`Solver::set_targets`].
+    ///
+    /// # Errors
+    /// [`SolveError::NoHandles`], `HeldOutOfRange`, `HeldTwice`, `Indefinite`. On error the solver is as it was.
+    pub fn set_held(&mut self, held: &[VertexId]) -> Result<(), SolveError> {
+        let held = Held::new(&self.analysis.layout, held, &self.pose.positions, self.policy)?;
+        if held.is_fixed != self.held.is_fixed {
+            let values = self.assemble(&self.rings.stiffness, &held.is_fixed);
+            self.factor(values)?;
+        }
+        self.held = held;
+        self.comparable = None;
+        Ok(())
+    }
+
+    /// One target per held vertex, in the order given to `set_held`/`new`. The vertices move with the next global step.
+    ///
+    /// # Errors
+    /// [`SolveError::WrongLength`], `TargetNotFinite`. On error the solver is as it was.
+    pub fn set_targets(&mut self, targets: &[DVec3]) -> Result<(), SolveError> {
+        self.held.set_targets(targets)?;
+        self.comparable = None;
+        Ok(())
+    }
+
+    /// Replaces the current pose (undo, load): positions of all vertices. The rotations become the best ones for them,
+    /// whatever the pose was before. Targets stay.
+    ///
+    /// # Errors
+    /// [`SolveError::WrongLength`], `TargetNotFinite`. On error the solver is as it was.
+    pub fn set_pose(&mut self, positions: &[DVec3]) -> Result<(), SolveError> {
+        let layout = &self.analysis.layout;
+        if positions.len() != layout.n_vertices() {
+            let (got, expected) = (positions.len(), layout.n_vertices());
+            return Err(SolveError::WrongLength { what: "positions", got, expected });
+        }
+        if let Some(bad) = positions.iter().position(|&p| !is_usable(p)) {
+            return Err(SolveError::TargetNotFinite { vertex: bad as u32 });
+        }
+        self.pose = Pose::at_rest(&layout.rest);
+        for (p, &caller) in self.pose.positions.iter_mut().zip(&layout.to_caller) {
+            *p = positions[caller as usize];
+        }
+        self.refresh();
+        Ok(())
+    }
+
+    /// Begins anew from a [`Start`]; the iteration count returns to 0. The next half step is global.
+    pub fn start(&mut self, start: Start) {
+        self.iteration = 0;
+        match start {
+            Start::Keep => {}
+            Start::Rest => {
+                self.pose = Pose::at_rest(&self.analysis.layout.rest);
+                self.energy = 0.0;
+            }
+            Start::Auto => return self.start_auto(),
+        }
+        self.comparable = None;
+    }
+
+    /// Global then local (3.2.1, 3.2.2). Energy is that of eq. (1) after the local step.
+    pub fn step(&mut self) -> StepReport {
+        self.global_step();
+        self.local_step()
+    }
+
+    /// Held vertices go exactly to their targets and the free ones to where the energy is least for the current
+    /// rotations (3.2.1).
+    pub fn global_step(&mut self) {
+        let layout = &self.analysis.layout;
+        self.held.place(&layout.rest, &mut self.pose.positions);
+        self.workspace.global(layout, &self.rings, &mut self.system, &self.held.is_fixed, &mut self.pose);
+        self.iteration += 1;
+    }
+
+    /// The best rotations for the current positions (3.2.2), and the energy.
+    pub fn local_step(&mut self) -> StepReport {
+        let LocalOutcome { mut energy, scale } =
+            self.workspace.local(&self.analysis.layout, &self.rings, &mut self.pose);
+        let noise = scale.abs();
+        if energy.abs() <= ZERO_BELOW * noise {
+            energy = 0.0;
+        }
+        let relative_decrease = match self.comparable {
+            Some(before) => {
+                if energy > before && energy - before <= NOISE * noise {
+                    energy = before;
+                }
+                if before == 0.0 { 0.0 } else { (before - energy) / before }
+            }
+            None if energy == 0.0 => 0.0,
+            None => 1.0,
+        };
+        self.energy = energy;
+        self.comparable = Some(energy);
+        StepReport { energy, iteration: self.iteration, relative_decrease }
+    }
+
+    /// Energy of eq. (1) after the last local step.
+    pub fn energy(&self) -> f64 {
+        self.energy
+    }
+
+    /// Positions of all vertices written into `out` (caller's numbering); entries beyond the vertices stay.
+    pub fn positions_into(&self, out: &mut [DVec3]) {
+        for (out, &internal) in out.iter_mut().zip(&self.analysis.layout.to_internal) {
+            *out = self.pose.positions[internal as usize];
+        }
+    }
+
+    /// Positions of all vertices.
+    pub fn positions(&self) -> Vec<DVec3> {
+        self.in_callers_order(&self.pose.positions)
+    }
+
+    /// R_k of all vertices.
+    pub fn rotations(&self) -> Vec<DMat3> {
+        self.in_callers_order(&self.pose.rotations)
+    }
+
+    /// E_k, the share of each vertex in the energy (eq. 1), summed directly: costs as much as all neighborhoods have
+    /// edges.
+    pub fn vertex_energies(&self) -> Vec<f64> {
+        let mut energies = vec![0.0; self.analysis.layout.n_vertices()];
+        let now = (&self.pose.positions[..], &self.pose.rotations[..]);
+        vertex_energies(&self.analysis.layout, &self.rings.neighborhoods, now, &mut energies);
+        self.in_callers_order(&energies)
+    }
+
+    /// Neighborhood sizes in use.
+    pub fn rigidity(&self) -> &Rigidity {
+        &self.rigidity
+    }
+
+    /// The held vertices, in the order given.
+    pub fn held(&self) -> &[VertexId] {
+        &self.held.vertices
+    }
+
+    /// Components without a held vertex: (vertex count, first vertex), by first vertex.
+    pub fn loose_components(&self) -> &[(usize, VertexId)] {
+        &self.held.loose_reported
+    }
+
+    fn in_callers_order<T: Copy>(&self, internal: &[T]) -> Vec<T> {
+        self.analysis.layout.to_internal.iter().map(|&v| internal[v as usize]).collect()
+    }
+
+    /// Rotations and energy for positions or neighborhoods that were replaced.
+    fn refresh(&mut self) {
+        self.comparable = None;
+        self.local_step();
+        self.comparable = None;
+    }
+
+    /// The matrix of the global step: d w Laplacian, fixed vertices as identity rows.
+    fn assemble(&self, stiffness: &[f64], is_fixed: &[bool]) -> Vec<f64> {
+        let Analysis { layout, pattern, slots, .. } = &*self.analysis;
+        let mut values = vec![0.0; pattern.n_values()];
+        for (e, &[i, j]) in layout.edges.iter().enumerate() {
+            let (i_free, j_free) = (!is_fixed[i as usize], !is_fixed[j as usize]);
+            if i_free {
+                values[pattern.diagonal(i as usize)] += stiffness[e];
+            }
+            if j_free {
+                values[pattern.diagonal(j as usize)] += stiffness[e];
+            }
+            if i_free && j_free {
+                values[slots[e] as usize] = -stiffness[e];
+            }
+        }
+        for i in (0..layout.n_vertices()).filter(|&i| is_fixed[i]) {
+            values[pattern.diagonal(i)] = 1.0;
+        }
+        values
+    }
+
+    /// Factors new values, or returns to the ones before.
+    fn factor(&mut self, values: Vec<f64>) -> Result<(), SolveError> {
+        let mut outcome = self.system.factor(&values);
+        if outcome.is_ok()
+            && self.analysis.weights() == Weights::Cotangent
+            && let Some(row) = self.system.doubtful_pivot(&values)
+        {
+            outcome = Err(FactorError::NonPositivePivot { row });
+        }
+        match outcome {
+            Ok(()) => {
+                self.values = values;
+                Ok(())
+            }
+            Err(error) => {
+                if !self.values.is_empty() {
+                    // These were factored before, with the same order of operations: they succeed again.
+                    self.system.factor(&self.values).map_err(|error| explain(&self.analysis, error))?;
+                }
+                Err(explain(&self.analysis, error))
+            }
+        }
+    }
+}
+
+fn explain(analysis: &Analysis, error: FactorError) -> SolveError {
+    match error {
+        FactorError::NonPositivePivot { row } => SolveError::Indefinite { vertex: analysis.layout.to_caller[row] },
+        FactorError::TooLarge => SolveError::TooLarge { what: "the factored system" },
+    }
+}

@@ -1,0 +1,154 @@
+//! Where an iteration begins, and the search for a good beginning after a jump of the handles.
+//!
+//! Local/global iteration descends into the nearest valley. After a jump, four beginnings are tried, each by a few
+//! iterations that begin with a global step, and the lowest energy goes on:
+//!
+//! 1. the rotations of the current pose;
+//! 2. R = I, as in the paper;
+//! 3. in each component the rotation of the rigid motion that fits its held vertices best: if all of them moved by one
+//!    rigid motion, this is the answer, with E = 0;
+//! 4. rotations blended between the groups of held vertices: each group's rotation is fitted, and its logarithm (seen
+//!    from the largest group of the component) is spread harmonically, by one solve with the factored system.
+
+use glam::{DQuat, DVec3};
+
+use crate::Solver;
+
+/// Where an iteration begins.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Start {
+    /// Rest positions and every rotation the identity, as in the paper (3.2); the next half step is global.
+    Rest,
+    /// The current positions and rotations are kept (warm start): a small move of handles.
+    Keep,
+    /// After a jump: several candidates (kept pose, R = I, rigid motion of each component, rotations blended
+    /// harmonically from the rigid motions of the handle groups) are each iterated a few times and the lowest energy
+    /// wins. Costs up to twelve iterations and one more solve; stops at once where E = 0.
+    Auto,
+}
+
+/// Enough to tell candidates apart: after three iterations the order of energies was the final one (measured on bends
+/// and twists of a bar).
+const TRIAL_ITERATIONS: usize = 3;
+
+impl Solver {
+    pub(crate) fn start_auto(&mut self) {
+        let before = self.pose.clone();
+        let rigid = self.component_turns();
+        let blended = self.blended_turns(&rigid);
+        let mut best = None;
+        for candidate in 0..4 {
+            self.pose.clone_from(&before);
+            match candidate {
+                0 => {}
+                1 => self.pose.set_turns(|_| DQuat::IDENTITY),
+                2 => self.pose.set_turns(|k| rigid[k]),
+                _ => match &blended {
+                    Some(turns) => self.pose.set_turns(|k| turns[k]),
+                    None => continue,
+                },
+            }
+            self.comparable = None;
+            for _ in 0..TRIAL_ITERATIONS {
+                self.step();
+            }
+            let energy = self.energy;
+            if best.as_ref().is_none_or(|(lowest, _)| energy < *lowest) {
+                best = Some((energy, self.pose.clone()));
+            }
+            if energy == 0.0 {
+                break;
+            }
+        }
+        if let Some((energy, pose)) = best {
+            (self.energy, self.comparable, self.pose) = (energy, Some(energy), pose);
+        }
+        self.iteration = 0;
+    }
+
+    /// For every vertex the rotation that fits the held vertices of its component; the identity in loose components.
+    fn component_turns(&self) -> Vec<DQuat> {
+        let layout = &self.analysis.layout;
+        let everywhere = self.held.motion_of(&layout.rest, DQuat::IDENTITY, |_| true).rotation;
+        let mut turns = vec![DQuat::IDENTITY; layout.n_vertices()];
+        let mut first = 0;
+        for members in layout.component.chunk_by(|a, b| a == b) {
+            let vertices = first..first + members.len();
+            first = vertices.end;
+            let is_here = |i: usize| vertices.contains(&(self.held.internal[i] as usize));
+            if (0..self.held.internal.len()).any(is_here) {
+                turns[vertices.clone()].fill(self.held.motion_of(&layout.rest, everywhere, is_here).rotation);
+            }
+        }
+        turns
+    }
+
+    /// Rotations between those of the groups; none if there is only one group.
+    fn blended_turns(&mut self, rigid: &[DQuat]) -> Option<Vec<DQuat>> {
+        if self.held.n_groups < 2 {
+            return None;
+        }
+        let analysis = self.analysis.clone();
+        let layout = &analysis.layout;
+        let mut sizes = vec![0usize; self.held.n_groups];
+        self.held.group.iter().for_each(|&group| sizes[group as usize] += 1);
+        // Group by group: a vertex of it, for its component.
+        let mut member = vec![0usize; self.held.n_groups];
+        for (i, &group) in self.held.group.iter().enumerate() {
+            member[group as usize] = self.held.internal[i] as usize;
+        }
+        let turns: Vec<DQuat> = (0..self.held.n_groups)
+            .map(|group| self.held.group_motion(group as u32, &layout.rest, rigid[member[group]]).rotation)
+            .collect();
+        // The largest group of each component, the first of equals.
+        let n_components = layout.component.iter().max().map_or(0, |&last| last as usize + 1);
+        let mut largest: Vec<Option<usize>> = vec![None; n_components];
+        for group in 0..self.held.n_groups {
+            let largest = &mut largest[layout.component[member[group]] as usize];
+            if largest.is_none_or(|other| sizes[group] > sizes[other]) {
+                *largest = Some(group);
+            }
+        }
+        let reference = |v: usize| largest[layout.component[v] as usize].map_or(DQuat::IDENTITY, |g| turns[g]);
+        let mut logarithms = vec![DVec3::ZERO; layout.n_vertices()];
+        for (i, &v) in self.held.internal.iter().enumerate() {
+            let relative = reference(v as usize).conjugate() * turns[self.held.group[i] as usize];
+            logarithms[v as usize] = logarithm(relative);
+        }
+        self.spread(&mut logarithms);
+        Some((0..layout.n_vertices()).map(|v| reference(v) * exponential(logarithms[v])).collect())
+    }
+
+    /// Extends values at fixed vertices harmonically to the free ones.
+    fn spread(&mut self, values: &mut [DVec3]) {
+        let layout = &self.analysis.layout;
+        let n = layout.n_vertices();
+        let columns = &mut self.workspace.columns;
+        columns.fill(0.0);
+        for i in (0..n).filter(|&i| !self.held.is_fixed[i]) {
+            for spoke in layout.spokes(i).iter().filter(|spoke| self.held.is_fixed[spoke.vertex as usize]) {
+                let pull = values[spoke.vertex as usize] * self.rings.stiffness[spoke.edge as usize];
+                columns[i] += pull.x;
+                columns[n + i] += pull.y;
+                columns[2 * n + i] += pull.z;
+            }
+        }
+        self.system.solve_in_place(columns);
+        for i in (0..n).filter(|&i| !self.held.is_fixed[i]) {
+            values[i] = DVec3::new(columns[i], columns[n + i], columns[2 * n + i]);
+        }
+    }
+}
+
+/// The rotation vector of the shorter way.
+fn logarithm(q: DQuat) -> DVec3 {
+    let q = if q.w < 0.0 { -q } else { q };
+    let v = DVec3::new(q.x, q.y, q.z);
+    let sine = v.length();
+    if sine == 0.0 { DVec3::ZERO } else { v * (2.0 * sine.atan2(q.w) / sine) }
+}
+
+/// The rotation about a vector by its length.
+fn exponential(v: DVec3) -> DQuat {
+    DQuat::from_scaled_axis(v)
+}

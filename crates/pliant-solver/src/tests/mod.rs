@@ -1,0 +1,3 @@
+//! Promises of the whole solver.
+
+mod figures;

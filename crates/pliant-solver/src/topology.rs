@@ -1,0 +1,96 @@
+//! Edges, components and defects of a triangle list, by sorting half-edges: no hash, so the same every time.
+
+use glam::DVec3;
+
+use crate::mesh::Defects;
+
+/// Twice the area over the longest side squared below which a face counts as without area. Rounding of coordinates
+/// far from the origin gives 1e-13 or so.
+const FLAT: f64 = 1e-12;
+
+/// The sides of all triangles, sorted by their ends.
+pub(crate) struct HalfEdges {
+    /// (lower end, upper end, whether the face runs from lower to upper).
+    sides: Vec<(u32, u32, bool)>,
+}
+
+impl HalfEdges {
+    pub(crate) fn new(triangles: &[[u32; 3]]) -> HalfEdges {
+        let mut sides: Vec<_> = triangles
+            .iter()
+            .flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)])
+            .filter(|(a, b)| a != b)
+            .map(|(a, b)| (a.min(b), a.max(b), a < b))
+            .collect();
+        sides.sort_unstable();
+        HalfEdges { sides }
+    }
+
+    /// Each undirected edge once.
+    pub(crate) fn edges(&self) -> Vec<[u32; 2]> {
+        self.groups().map(|group| [group[0].0, group[0].1]).collect()
+    }
+
+    fn groups(&self) -> impl Iterator<Item = &[(u32, u32, bool)]> {
+        self.sides.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1))
+    }
+}
+
+/// Component of each vertex, numbered by first vertex, and their number.
+pub(crate) fn components(offsets: &[u32], neighbors: &[u32]) -> (Vec<u32>, usize) {
+    let n = offsets.len() - 1;
+    let mut component = vec![u32::MAX; n];
+    let mut n_components = 0;
+    let mut stack = Vec::new();
+    for first in 0..n {
+        if component[first] != u32::MAX {
+            continue;
+        }
+        component[first] = n_components;
+        stack.push(first);
+        while let Some(v) = stack.pop() {
+            for &w in &neighbors[offsets[v] as usize..offsets[v + 1] as usize] {
+                if component[w as usize] == u32::MAX {
+                    component[w as usize] = n_components;
+                    stack.push(w as usize);
+                }
+            }
+        }
+        n_components += 1;
+    }
+    (component, n_components as usize)
+}
+
+pub(crate) fn count_defects(positions: &[DVec3], triangles: &[[u32; 3]], half_edges: &HalfEdges) -> Defects {
+    let mut defects = Defects::default();
+    for group in half_edges.groups() {
+        match group {
+            [_] => defects.boundary_edges += 1,
+            [one, other] => defects.inconsistent_edges += usize::from(one.2 == other.2),
+            _ => defects.non_manifold_edges += 1,
+        }
+    }
+    let mut referenced = vec![false; positions.len()];
+    for face in triangles {
+        face.iter().for_each(|&v| referenced[v as usize] = true);
+        defects.degenerate_faces += usize::from(is_flat(face.map(|v| positions[v as usize])));
+    }
+    defects.unreferenced_vertices = referenced.iter().filter(|&&seen| !seen).count();
+    let mut sorted: Vec<_> = triangles
+        .iter()
+        .map(|&face| {
+            let mut face = face;
+            face.sort_unstable();
+            face
+        })
+        .collect();
+    sorted.sort_unstable();
+    defects.duplicate_faces = sorted.windows(2).filter(|pair| pair[0] == pair[1]).count();
+    defects
+}
+
+/// Whether a triangle has a repeated corner or no area worth the name.
+fn is_flat([a, b, c]: [DVec3; 3]) -> bool {
+    let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a));
+    (b - a).cross(c - a).length() <= FLAT * longest
+}
