@@ -57,10 +57,6 @@ fn depth_toward_eye(view: vec3f, lift: f32) -> f32 {
     return clamp(clip.z / clip.w, 0.0, 1.0);
 }
 
-fn linear_from_srgb(srgb: vec3f) -> vec3f {
-    return select(pow((srgb + 0.055) / 1.055, vec3f(2.4)), srgb / 12.92, srgb <= vec3f(0.04045));
-}
-
 fn srgb_from_linear(linear: vec3f) -> vec3f {
     let c = clamp(linear, vec3f(0.0), vec3f(1.0));
     return select(1.055 * pow(c, vec3f(1.0 / 2.4)) - 0.055, c * 12.92, c <= vec3f(0.0031308));

@@ -20,7 +20,8 @@ struct Lit {
 fn lit_vertex(position: vec3f, normal: vec3f, color: vec4f) -> Lit {
     let view = view_from_world(position);
     let turned = picture.view_from_world * vec4f(normal, 0.0);
-    return Lit(clip_from_view(view), view, turned.xyz, vec4f(linear_from_srgb(color.rgb), color.a));
+    // Colors arrive as square roots of linear light: eight bits suffice, and decoding is a product.
+    return Lit(clip_from_view(view), view, turned.xyz, vec4f(color.rgb * color.rgb, color.a));
 }
 
 // Toward the eye, unit length.

@@ -1,109 +1,97 @@
 //! The color of each vertex, mixed on the CPU from base color, ramp and opacity: one place for the truth the legend shows too.
+//!
+//! Colors are handed over as square roots of linear light in eight bits: about as fine as sRGB, and decoding is a product.
 
-use super::super::ramp::{encode, linear};
+use super::super::ramp::linear;
 use super::super::{Coloring, Theme, ViewScene, energy_color, rigidity_color};
 use glam::Vec3;
-use std::sync::LazyLock;
 
 /// Unpainted clay, sRGB: light before dark ground, a shade darker before light ground (by eye).
 const CLAY: [[u8; 3]; 2] = [[206, 203, 198], [190, 192, 196]];
 /// Entries of a tabulated ramp; ramps with more rigidities than this are sampled.
 const RAMP_ENTRIES: usize = 256;
-/// Steps of linear light in the table to sRGB: fine enough that no sRGB byte above the darkest few is skipped.
-const ENCODE_STEPS: usize = 4096;
 
-static ENCODED: LazyLock<Vec<u8>> = LazyLock::new(|| {
-    (0..=ENCODE_STEPS)
-        .map(|step| encode(Vec3::splat(step as f32 / ENCODE_STEPS as f32))[0])
-        .collect()
-});
-
-/// sRGB and the selection (0 or 255) of each of `n_vertices` vertices into `out`. Arrays of the scene that are too short count as
-/// zeros beyond their end.
+/// Color and selection (0 or 255) of each of `n_vertices` vertices into `out`. Beyond the end of arrays that are too short: r = 1,
+/// energy 0, not selected, clay.
 pub(super) fn vertex_colors(scene: &ViewScene, n_vertices: usize, out: &mut Vec<[u8; 4]>) {
-    out.clear();
-    out.reserve(n_vertices);
+    let clay = linear(CLAY[usize::from(scene.theme == Theme::Light)]);
     let ramp = ramp_table(scene);
-    let opacity = if ramp.is_empty() {
-        0.0
-    } else {
-        scene.color_opacity.clamp(0.0, 1.0)
+    let opacity = scene.color_opacity.clamp(0.0, 1.0);
+    let mix = |base: Vec3, entry: usize| match ramp.get(entry) {
+        Some(color) => roots(base.lerp(*color, opacity)),
+        None => roots(base),
     };
-    let entry = |vertex: usize| match scene.coloring {
+    out.clear();
+    match &scene.base_colors {
+        Some(bases) => out.extend((0..n_vertices).map(|vertex| {
+            let base = bases.get(vertex).map_or(clay, |[r, g, b, _]| {
+                Vec3::new(f32::from(*r), f32::from(*g), f32::from(*b)) / 255.0
+            });
+            mix(base, ramp_entry(scene, vertex))
+        })),
+        None => {
+            let mixed: Vec<_> = (0..ramp.len().max(1))
+                .map(|entry| mix(clay, entry))
+                .collect();
+            out.extend((0..n_vertices).map(|vertex| mixed[ramp_entry(scene, vertex)]));
+        }
+    }
+    if let Some(flags) = &scene.selected {
+        for (color, selected) in out.iter_mut().zip(flags.iter()) {
+            color[3] = if *selected { 255 } else { 0 };
+        }
+    }
+}
+
+/// Square roots of linear light, not selected.
+fn roots(linear: Vec3) -> [u8; 4] {
+    let [r, g, b] = linear
+        .to_array()
+        .map(|light| (light.clamp(0.0, 1.0).sqrt() * 255.0).round() as u8);
+    [r, g, b, 0]
+}
+
+/// The ramp of the scene's coloring in linear light; empty for plain.
+fn ramp_table(scene: &ViewScene) -> Vec<Vec3> {
+    let last = RAMP_ENTRIES - 1;
+    match scene.coloring {
+        Coloring::Plain => Vec::new(),
+        Coloring::Rigidity => {
+            let max = scene.ramp_max.max(2);
+            let last = rigidity_entry(max, max);
+            let r = |entry: usize| 1 + (entry * usize::from(max - 1) / last) as u16;
+            (0..=last)
+                .map(|entry| linear(rigidity_color(r(entry), max)))
+                .collect()
+        }
+        Coloring::Energy => (0..=last)
+            .map(|entry| linear(energy_color(entry as f32 / last as f32)))
+            .collect(),
+    }
+}
+
+/// Entry of a vertex in the table of the scene's coloring; 0 for plain.
+fn ramp_entry(scene: &ViewScene, vertex: usize) -> usize {
+    match scene.coloring {
         Coloring::Plain => 0,
         Coloring::Rigidity => rigidity_entry(
             scene.rigidity.get(vertex).copied().unwrap_or(1),
             scene.ramp_max,
         ),
-        Coloring::Energy => energy_entry(
-            scene
+        Coloring::Energy => {
+            let value = scene
                 .values
                 .as_ref()
                 .and_then(|values| values.get(vertex))
                 .copied()
-                .unwrap_or(0.0),
-        ),
-    };
-    let selected = |vertex: usize| match &scene.selected {
-        Some(flags) if flags.get(vertex).copied().unwrap_or(false) => 255,
-        _ => 0,
-    };
-    match &scene.base_colors {
-        Some(bases) => out.extend((0..n_vertices).map(|vertex| {
-            let [r, g, b, _] = bases.get(vertex).copied().unwrap_or([255; 4]);
-            let base = Vec3::new(f32::from(r), f32::from(g), f32::from(b)) / 255.0;
-            let color = if opacity > 0.0 {
-                base.lerp(ramp[entry(vertex)], opacity)
-            } else {
-                base
-            };
-            with_selection(
-                color
-                    .to_array()
-                    .map(|v| ENCODED[(v * ENCODE_STEPS as f32) as usize]),
-                selected(vertex),
-            )
-        })),
-        None => {
-            let clay = linear(CLAY[usize::from(scene.theme == Theme::Light)]);
-            let mut mixed: Vec<[u8; 3]> = ramp
-                .iter()
-                .map(|color| encode(clay.lerp(*color, opacity)))
-                .collect();
-            if mixed.is_empty() {
-                mixed.push(encode(clay));
-            }
-            out.extend(
-                (0..n_vertices)
-                    .map(|vertex| with_selection(mixed[entry(vertex)], selected(vertex))),
-            );
+                .unwrap_or(0.0);
+            // A NaN becomes entry 0 here.
+            (value.clamp(0.0, 1.0) * (RAMP_ENTRIES - 1) as f32).round() as usize
         }
     }
 }
 
-fn with_selection([r, g, b]: [u8; 3], selected: u8) -> [u8; 4] {
-    [r, g, b, selected]
-}
-
-/// The ramp of the scene's coloring in linear light; empty for plain.
-fn ramp_table(scene: &ViewScene) -> Vec<Vec3> {
-    match scene.coloring {
-        Coloring::Plain => Vec::new(),
-        Coloring::Rigidity => {
-            let last = rigidity_entry(u16::MAX, scene.ramp_max);
-            let steps = f32::from(scene.ramp_max.max(2) - 1);
-            let r = |entry: usize| 1 + (entry as f32 * steps / last as f32).round() as u16;
-            (0..=last)
-                .map(|entry| linear(rigidity_color(r(entry), scene.ramp_max)))
-                .collect()
-        }
-        Coloring::Energy => (0..RAMP_ENTRIES)
-            .map(|entry| linear(energy_color(entry as f32 / (RAMP_ENTRIES - 1) as f32)))
-            .collect(),
-    }
-}
-
-/// Table entry of r: r − 1, or a sample of a ramp too long to tabulate.
+/// Entry of r: r − 1, or a sample of a ramp too long to tabulate.
 fn rigidity_entry(r: u16, ramp_max: u16) -> usize {
     let most = usize::from(ramp_max.max(2) - 1);
     let steps = usize::from(r.max(1) - 1).min(most);
@@ -114,7 +102,88 @@ fn rigidity_entry(r: u16, ramp_max: u16) -> usize {
     }
 }
 
-/// Table entry of a normalized value; NaN is zero.
-fn energy_entry(value: f32) -> usize {
-    (value.clamp(0.0, 1.0) * (RAMP_ENTRIES - 1) as f32).round() as usize
+#[cfg(test)]
+mod tests {
+    use super::super::super::{Camera, Shading, SurfaceFrame};
+    use super::*;
+    use std::sync::Arc;
+
+    /// Vertices of these rigidities, colored by them.
+    fn painted(rigidity: &[u16], ramp_max: u16, opacity: f32) -> ViewScene {
+        ViewScene {
+            triangles: Arc::new([]),
+            frame: Arc::new(SurfaceFrame::default()),
+            rigidity: rigidity.into(),
+            values: None,
+            selected: None,
+            base_colors: None,
+            dots: Arc::new([]),
+            lines: Arc::new([]),
+            coloring: Coloring::Rigidity,
+            ramp_max,
+            color_opacity: opacity,
+            shading: Shading::Smooth,
+            wireframe: false,
+            grid: false,
+            theme: Theme::Dark,
+            camera: Camera::framing(Vec3::NEG_ONE, Vec3::ONE),
+            bounds: (Vec3::NEG_ONE, Vec3::ONE),
+            pixels_per_point: 1.0,
+        }
+    }
+
+    fn colors(scene: &ViewScene, n: usize) -> Vec<[u8; 4]> {
+        let mut out = vec![[9; 4]; 3];
+        vertex_colors(scene, n, &mut out);
+        out
+    }
+
+    #[test]
+    fn the_surface_has_the_colors_of_the_legend() {
+        for max in [2, 6, 20, 300, u16::MAX] {
+            let rs = [1, 2, max / 2 + 1, max, u16::MAX, 0];
+            for (index, color) in colors(&painted(&rs, max, 1.0), rs.len())
+                .into_iter()
+                .enumerate()
+            {
+                let expected = linear(rigidity_color(rs[index], max));
+                // Half a step of eight bits in the root, and half a table step of ramps that are sampled.
+                let tolerance = if max > 256 { 4 } else { 1 };
+                for (got, expected) in color.into_iter().zip(roots(expected)) {
+                    assert!(
+                        got.abs_diff(expected) <= tolerance,
+                        "r {} of {max}: {color:?}",
+                        rs[index]
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn opacity_mixes_with_what_is_under_the_ramp() {
+        let clay = colors(&painted(&[6], 6, 0.0), 1)[0];
+        assert_eq!(clay, roots(linear(CLAY[0])));
+        let mut scene = painted(&[6], 6, 0.5);
+        scene.base_colors = Some(Arc::new([[255, 255, 255, 255]]));
+        let expected = roots((linear(rigidity_color(6, 6)) + 1.0) * 0.5);
+        assert_eq!(colors(&scene, 1)[0], expected);
+        scene.coloring = Coloring::Plain;
+        assert_eq!(colors(&scene, 1)[0], [255, 255, 255, 0]);
+    }
+
+    #[test]
+    fn short_arrays_leave_the_rest_plain() {
+        let mut scene = painted(&[6], 6, 1.0);
+        scene.selected = Some(Arc::new([true]));
+        let got = colors(&scene, 3);
+        assert_eq!(got.len(), 3);
+        assert_eq!((got[0][3], got[1][3]), (255, 0));
+        assert_eq!(got[1], roots(linear(rigidity_color(1, 6))));
+        scene.coloring = Coloring::Energy;
+        scene.values = Some(Arc::new([f32::NAN, 2.0]));
+        let got = colors(&scene, 3);
+        assert_eq!(got[0][..3], got[2][..3], "NaN and missing are zero");
+        assert_eq!(got[1], roots(linear(energy_color(1.0))));
+    }
 }
