@@ -1,0 +1,25 @@
+//! What can go wrong, in one line each.
+
+use std::path::PathBuf;
+
+/// Why a command failed.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum Failure {
+    #[error("{path}: {source}")]
+    File { path: PathBuf, source: std::io::Error },
+    #[error("{program} could not be started: {source}")]
+    Start { program: String, source: std::io::Error },
+    #[error("sample {name} could not be written: {source}")]
+    Sample {
+        name: &'static str,
+        source: pliant_meshfile::SaveError,
+    },
+    #[error("{n} of the files in assets/ are not what `cargo xtask assets` makes (first: {first}); run it and commit what changed", n = .0.len(), first = .0[0])]
+    Stale(Vec<String>),
+    #[error(
+        "no Vulkan driver found: the image tests need one, a software one will do; install {0}, then run this again"
+    )]
+    NoVulkan(&'static str),
+    #[error("some tests failed")]
+    TestsFailed,
+}

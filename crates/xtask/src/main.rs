@@ -1,0 +1,48 @@
+//! Developer commands: `cargo xtask test` runs every test, `cargo xtask assets` makes the samples anew.
+
+mod assets;
+mod failure;
+mod shapes;
+mod testing;
+mod vulkan;
+
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+/// Developer commands of Pliant.
+#[derive(Parser)]
+#[command(name = "cargo xtask", bin_name = "cargo xtask")]
+struct Arguments {
+    #[command(subcommand)]
+    task: Task,
+}
+
+#[derive(Subcommand)]
+enum Task {
+    /// Run all tests of the workspace; installs a software Vulkan driver first where none is found and it can
+    Test {
+        /// Passed on to the test runner, for instance a part of a test's name
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+        filter: Vec<String>,
+    },
+    /// Make the samples in assets/ anew
+    Assets {
+        /// Only compare with what is there; fail if a byte differs
+        #[arg(long)]
+        check: bool,
+    },
+}
+
+fn main() -> ExitCode {
+    let done = match Arguments::parse().task {
+        Task::Test { filter } => testing::run(&filter),
+        Task::Assets { check } => assets::run(check),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("error: {failure}");
+            ExitCode::FAILURE
+        }
+    }
+}
