@@ -57,7 +57,9 @@ fn depth_toward_eye(view: vec3f, lift: f32) -> f32 {
     return clamp(clip.z / clip.w, 0.0, 1.0);
 }
 
+// Roots instead of powers: fitted to the sRGB curve, off by at most 1.4 of 255 levels, and cheap where the processor draws.
 fn srgb_from_linear(linear: vec3f) -> vec3f {
     let c = clamp(linear, vec3f(0.0), vec3f(1.0));
-    return select(1.055 * pow(c, vec3f(1.0 / 2.4)) - 0.055, c * 12.92, c <= vec3f(0.0031308));
+    let root = sqrt(c);
+    return root * (1.6402 + 0.2247 * c) - 0.1931 * sqrt(root) - 0.6772 * c;
 }

@@ -6,7 +6,6 @@ const FILL_DIRECTION = vec3f(0.844, 0.074, 0.531);
 const RIM_DIRECTION = vec3f(0.348, 0.753, -0.557);
 // Key light reaches this far (as a cosine) past the terminator: a large, soft lamp.
 const KEY_WRAP = 0.28;
-const SHININESS = 38.0;
 const SPECULAR = 0.16;
 
 struct Lit {
@@ -29,13 +28,17 @@ fn toward_eye(view: vec3f) -> vec3f {
     return select(normalize(-view), vec3f(0.0, 0.0, 1.0), picture.modes.x > 0.5);
 }
 
-// The facing normal: of the vertices, or of the triangle where those are unusable or facets are asked for.
-fn shading_normal(in: Lit, eye: vec3f, facet: vec3f, front: bool) -> vec3f {
+// The unit normal on the side one looks at: of the vertices, or of the triangle where facets are asked for. A vertex without a
+// normal (all its triangles have no area) counts as facing the eye.
+fn shading_normal(in: Lit, eye: vec3f, front: bool) -> vec3f {
+    if picture.modes.y > 0.5 {
+        let facet = cross(dpdx(in.view), dpdy(in.view));
+        let unit = facet * inverseSqrt(max(dot(facet, facet), 1e-37));
+        return unit * select(-1.0, 1.0, dot(unit, eye) >= 0.0);
+    }
     let size = dot(in.normal, in.normal);
-    let flat_shaded = picture.modes.y > 0.5 || !(size > 1e-30);
-    let smooth_normal = in.normal * inverseSqrt(max(size, 1e-30)) * select(-1.0, 1.0, front);
-    let outward = facet * select(-1.0, 1.0, dot(facet, eye) >= 0.0);
-    return normalize(select(smooth_normal, outward, flat_shaded));
+    let unit = in.normal * (inverseSqrt(max(size, 1e-30)) * select(-1.0, 1.0, front));
+    return select(eye, unit, size > 1e-30);
 }
 
 fn wrapped(cosine: f32, wrap: f32) -> f32 {
@@ -43,13 +46,27 @@ fn wrapped(cosine: f32, wrap: f32) -> f32 {
     return soft * soft * (1.0 - wrap) + soft * wrap;
 }
 
+// Soft diagonal stripes, 0.3..=1: selection shows over any ramp, and the ramp through the selection.
+fn hatching(px: vec2f) -> f32 {
+    let across = fract((px.x + px.y) / (9.0 * picture.viewport.z));
+    return 0.3 + 0.7 * smoothstep(0.17, 0.33, abs(across - 0.5));
+}
+
+// Sharpness of the highlight, by squaring five times.
+fn power_32(x: f32) -> f32 {
+    let x2 = x * x;
+    let x4 = x2 * x2;
+    let x8 = x4 * x4;
+    let x16 = x8 * x8;
+    return x16 * x16;
+}
+
 // Light leaving the surface toward the eye, linear.
 fn shade(in: Lit, front: bool) -> vec3f {
     let eye = toward_eye(in.view);
-    let facet = cross(dpdx(in.view), dpdy(in.view));
-    let normal = shading_normal(in, eye, facet * inverseSqrt(max(dot(facet, facet), 1e-37)), front);
+    let normal = shading_normal(in, eye, front);
 
-    var albedo = mix(in.color.rgb, picture.accent.rgb, in.color.a * picture.accent.a);
+    var albedo = mix(in.color.rgb, picture.accent.rgb, in.color.a * picture.accent.a * hatching(in.clip.xy));
     if !front {
         albedo = mix(albedo, picture.back_tint.rgb, picture.back_tint.a);
     }
@@ -63,6 +80,6 @@ fn shade(in: Lit, front: bool) -> vec3f {
     let grazing = 1.0 - max(dot(normal, eye), 0.0);
     let rim = picture.rim.rgb * grazing * grazing * grazing * smoothstep(-0.3, 0.6, dot(normal, RIM_DIRECTION));
     let halfway = normalize(eye + KEY_DIRECTION);
-    let gloss = select(0.3, 1.0, front) * SPECULAR * pow(max(dot(normal, halfway), 0.0), SHININESS);
+    let gloss = select(0.3, 1.0, front) * SPECULAR * power_32(max(dot(normal, halfway), 0.0));
     return albedo * light + rim + picture.key.rgb * gloss;
 }

@@ -90,11 +90,7 @@ impl Camera {
     pub fn frame(&mut self, min: Vec3, max: Vec3) {
         let (center, radius) = sphere(min, max);
         let half = ((max - min) * 0.5).abs();
-        let half = if half.is_finite() && half.max_element() > 0.0 {
-            half
-        } else {
-            Vec3::splat(radius)
-        };
+        let half = if half.is_finite() && half.max_element() > 0.0 { half } else { Vec3::splat(radius) };
         let tangent = self.half_tangent() * (1.0 - MARGIN);
         let (right, up, forward) = (self.right(), self.up(), self.forward());
         // The distance at which a corner touches the edge of the view: its reach across the view, plus how far it stands before the center.
@@ -105,10 +101,7 @@ impl Camera {
                 Projection::Orthographic => across,
             }
         };
-        let distance = corners(half)
-            .map(needed)
-            .into_iter()
-            .fold(radius * CLOSEST_FRAME, f32::max);
+        let distance = corners(half).map(needed).into_iter().fold(radius * CLOSEST_FRAME, f32::max);
         self.target = center;
         self.distance = distance.clamp(DISTANCES.0, DISTANCES.1);
     }
@@ -183,14 +176,7 @@ impl Camera {
             }
             Projection::Orthographic => {
                 let half = half * self.distance;
-                directx::orthographic(
-                    -half.x,
-                    half.x,
-                    -half.y,
-                    half.y,
-                    depth + reach,
-                    depth - reach,
-                )
+                directx::orthographic(-half.x, half.x, -half.y, half.y, depth + reach, depth - reach)
             }
         }
     }
@@ -221,17 +207,11 @@ impl Camera {
         match self.projection {
             Projection::Perspective => {
                 let origin = self.eye();
-                Ray {
-                    origin,
-                    direction: (at_target - origin).normalize_or(self.forward()),
-                }
+                Ray { origin, direction: (at_target - origin).normalize_or(self.forward()) }
             }
             Projection::Orthographic => {
                 let direction = self.forward();
-                Ray {
-                    origin: at_target - direction * (self.distance * ORTHOGRAPHIC_RAY_START),
-                    direction,
-                }
+                Ray { origin: at_target - direction * (self.distance * ORTHOGRAPHIC_RAY_START), direction }
             }
         }
     }
@@ -252,9 +232,7 @@ impl Camera {
     /// World length of one pixel at this point's depth; behind the eye, at the closest visible depth.
     pub fn world_per_px(&self, at: Vec3, size: Vec2) -> f32 {
         let depth = match self.projection {
-            Projection::Perspective => (at - self.eye())
-                .dot(self.forward())
-                .max(self.distance * NEAR_PART),
+            Projection::Perspective => (at - self.eye()).dot(self.forward()).max(self.distance * NEAR_PART),
             Projection::Orthographic => self.distance,
         };
         depth / self.focal_px(size)

@@ -53,9 +53,7 @@ impl Headless {
                 Err(reason) => tried.push(format!("{name}: {reason}")),
             }
         }
-        Err(GpuError::NoAdapter {
-            tried: tried.join("; "),
-        })
+        Err(GpuError::NoAdapter { tried: tried.join("; ") })
     }
 
     /// Why the device was lost, if it was.
@@ -75,36 +73,21 @@ async fn open(backends: wgpu::Backends, in_software: bool) -> Result<Headless, S
         force_fallback_adapter: in_software,
         ..Default::default()
     };
-    let adapter = instance
-        .request_adapter(&options)
-        .await
-        .map_err(|error| one_line(&error))?;
+    let adapter = instance.request_adapter(&options).await.map_err(|error| one_line(&error))?;
     let info = adapter.get_info();
-    let descriptor = wgpu::DeviceDescriptor {
-        label: Some("pliant"),
-        required_limits: adapter.limits(),
-        ..Default::default()
-    };
+    let descriptor =
+        wgpu::DeviceDescriptor { label: Some("pliant"), required_limits: adapter.limits(), ..Default::default() };
     let (device, queue) = adapter
         .request_device(&descriptor)
         .await
         .map_err(|error| format!("{} refused: {}", info.name, one_line(&error)))?;
     log::info!("drawing on {} ({:?})", info.name, info.backend);
     let watch = watch_device(&device);
-    Ok(Headless {
-        device,
-        queue,
-        is_software: info.device_type == wgpu::DeviceType::Cpu,
-        watch,
-    })
+    Ok(Headless { device, queue, is_software: info.device_type == wgpu::DeviceType::Cpu, watch })
 }
 
 fn one_line(error: &dyn std::error::Error) -> String {
-    error
-        .to_string()
-        .split_whitespace()
-        .collect::<Vec<_>>()
-        .join(" ")
+    error.to_string().split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 /// What happened to a device since [`watch_device`]. Clones see the same device.
@@ -130,12 +113,7 @@ impl DeviceWatch {
 
     /// The guarded notes; a panic elsewhere while holding them does not spoil them.
     fn note<T>(&self, read_or_write: impl FnOnce(&mut Seen) -> T) -> T {
-        read_or_write(
-            &mut self
-                .0
-                .lock()
-                .unwrap_or_else(std::sync::PoisonError::into_inner),
-        )
+        read_or_write(&mut self.0.lock().unwrap_or_else(std::sync::PoisonError::into_inner))
     }
 }
 

@@ -17,11 +17,7 @@ pub fn picture(scene: &ViewScene, size_px: [u32; 2]) -> Result<image::RgbaImage,
 ///
 /// # Errors
 /// [`GpuError::Unreadable`] when the device fails underway.
-pub fn picture_on(
-    headless: &Headless,
-    scene: &ViewScene,
-    size_px: [u32; 2],
-) -> Result<image::RgbaImage, GpuError> {
+pub fn picture_on(headless: &Headless, scene: &ViewScene, size_px: [u32; 2]) -> Result<image::RgbaImage, GpuError> {
     let mut renderer = Renderer::new(&headless.device, &headless.queue, SAMPLES);
     renderer.render(scene, size_px);
     renderer.try_read_pixels()

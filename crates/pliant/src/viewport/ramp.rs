@@ -11,21 +11,9 @@
 use glam::{Mat3, Vec3};
 
 /// Stops of the rigidity ramp from r = 1 to the ramp's end, sRGB, evenly spaced (by eye).
-const RIGIDITY_STOPS: [[u8; 3]; 5] = [
-    [38, 92, 196],
-    [96, 174, 224],
-    [240, 232, 206],
-    [244, 160, 64],
-    [204, 52, 32],
-];
+const RIGIDITY_STOPS: [[u8; 3]; 5] = [[38, 92, 196], [96, 174, 224], [240, 232, 206], [244, 160, 64], [204, 52, 32]];
 /// Stops of the energy ramp from 0 to 1, sRGB, evenly spaced (by eye).
-const ENERGY_STOPS: [[u8; 3]; 5] = [
-    [34, 32, 74],
-    [104, 40, 124],
-    [190, 60, 104],
-    [242, 132, 64],
-    [252, 240, 168],
-];
+const ENERGY_STOPS: [[u8; 3]; 5] = [[34, 32, 74], [104, 40, 124], [190, 60, 104], [242, 132, 64], [252, 240, 168]];
 
 /// Color of r as shown on the legend and the surface (sRGB). The ramp runs from 1 to `ramp_max`; beyond it, the end's color.
 pub fn rigidity_color(r: u16, ramp_max: u16) -> [u8; 3] {
@@ -43,10 +31,7 @@ fn ramp(stops: &[[u8; 3]], t: f32) -> [u8; 3] {
     let last = stops.len() - 1;
     let at = if t.is_nan() { 0.0 } else { t.clamp(0.0, 1.0) } * last as f32;
     let index = (at as usize).min(last - 1);
-    let (a, b) = (
-        oklab_from_linear(linear(stops[index])),
-        oklab_from_linear(linear(stops[index + 1])),
-    );
+    let (a, b) = (oklab_from_linear(linear(stops[index])), oklab_from_linear(linear(stops[index + 1])));
     encode(linear_from_oklab(a.lerp(b, at - index as f32)))
 }
 
@@ -54,11 +39,7 @@ fn ramp(stops: &[[u8; 3]], t: f32) -> [u8; 3] {
 pub(super) fn linear(srgb: [u8; 3]) -> Vec3 {
     Vec3::from_array(srgb.map(|byte| {
         let v = f32::from(byte) / 255.0;
-        if v <= 0.04045 {
-            v / 12.92
-        } else {
-            ((v + 0.055) / 1.055).powf(2.4)
-        }
+        if v <= 0.04045 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) }
     }))
 }
 
@@ -66,11 +47,7 @@ pub(super) fn linear(srgb: [u8; 3]) -> Vec3 {
 pub(super) fn encode(linear: Vec3) -> [u8; 3] {
     linear.to_array().map(|v| {
         let v = v.clamp(0.0, 1.0);
-        let v = if v <= 0.003_130_8 {
-            v * 12.92
-        } else {
-            1.055 * v.powf(1.0 / 2.4) - 0.055
-        };
+        let v = if v <= 0.003_130_8 { v * 12.92 } else { 1.055 * v.powf(1.0 / 2.4) - 0.055 };
         (v * 255.0).round() as u8
     })
 }
@@ -114,16 +91,8 @@ mod tests {
             assert_eq!(stiff, RIGIDITY_STOPS[4], "max {max}");
         }
         assert_eq!(rigidity_color(9, 6), rigidity_color(6, 6), "beyond the end");
-        assert_eq!(
-            rigidity_color(0, 6),
-            rigidity_color(1, 6),
-            "below the start"
-        );
-        assert_eq!(
-            rigidity_color(3, 0),
-            rigidity_color(3, 2),
-            "a ramp without length"
-        );
+        assert_eq!(rigidity_color(0, 6), rigidity_color(1, 6), "below the start");
+        assert_eq!(rigidity_color(3, 0), rigidity_color(3, 2), "a ramp without length");
     }
 
     #[test]
@@ -150,18 +119,10 @@ mod tests {
 
     #[test]
     fn colors_survive_the_way_through_oklab() {
-        for color in RIGIDITY_STOPS.into_iter().chain([
-            [0, 0, 0],
-            [255, 255, 255],
-            [255, 0, 0],
-            [12, 200, 9],
-        ]) {
+        for color in RIGIDITY_STOPS.into_iter().chain([[0, 0, 0], [255, 255, 255], [255, 0, 0], [12, 200, 9]]) {
             let back = encode(linear_from_oklab(oklab_from_linear(linear(color))));
             for (got, expected) in back.into_iter().zip(color) {
-                assert!(
-                    got.abs_diff(expected) <= 1,
-                    "got {back:?}, expected {color:?}"
-                );
+                assert!(got.abs_diff(expected) <= 1, "got {back:?}, expected {color:?}");
             }
         }
     }

@@ -24,15 +24,13 @@ pub(super) fn vertex_colors(scene: &ViewScene, n_vertices: usize, out: &mut Vec<
     out.clear();
     match &scene.base_colors {
         Some(bases) => out.extend((0..n_vertices).map(|vertex| {
-            let base = bases.get(vertex).map_or(clay, |[r, g, b, _]| {
-                Vec3::new(f32::from(*r), f32::from(*g), f32::from(*b)) / 255.0
-            });
+            let base = bases
+                .get(vertex)
+                .map_or(clay, |[r, g, b, _]| Vec3::new(f32::from(*r), f32::from(*g), f32::from(*b)) / 255.0);
             mix(base, ramp_entry(scene, vertex))
         })),
         None => {
-            let mixed: Vec<_> = (0..ramp.len().max(1))
-                .map(|entry| mix(clay, entry))
-                .collect();
+            let mixed: Vec<_> = (0..ramp.len().max(1)).map(|entry| mix(clay, entry)).collect();
             out.extend((0..n_vertices).map(|vertex| mixed[ramp_entry(scene, vertex)]));
         }
     }
@@ -45,9 +43,7 @@ pub(super) fn vertex_colors(scene: &ViewScene, n_vertices: usize, out: &mut Vec<
 
 /// Square roots of linear light, not selected.
 fn roots(linear: Vec3) -> [u8; 4] {
-    let [r, g, b] = linear
-        .to_array()
-        .map(|light| (light.clamp(0.0, 1.0).sqrt() * 255.0).round() as u8);
+    let [r, g, b] = linear.to_array().map(|light| (light.clamp(0.0, 1.0).sqrt() * 255.0).round() as u8);
     [r, g, b, 0]
 }
 
@@ -60,13 +56,9 @@ fn ramp_table(scene: &ViewScene) -> Vec<Vec3> {
             let max = scene.ramp_max.max(2);
             let last = rigidity_entry(max, max);
             let r = |entry: usize| 1 + (entry * usize::from(max - 1) / last) as u16;
-            (0..=last)
-                .map(|entry| linear(rigidity_color(r(entry), max)))
-                .collect()
+            (0..=last).map(|entry| linear(rigidity_color(r(entry), max))).collect()
         }
-        Coloring::Energy => (0..=last)
-            .map(|entry| linear(energy_color(entry as f32 / last as f32)))
-            .collect(),
+        Coloring::Energy => (0..=last).map(|entry| linear(energy_color(entry as f32 / last as f32))).collect(),
     }
 }
 
@@ -74,17 +66,9 @@ fn ramp_table(scene: &ViewScene) -> Vec<Vec3> {
 fn ramp_entry(scene: &ViewScene, vertex: usize) -> usize {
     match scene.coloring {
         Coloring::Plain => 0,
-        Coloring::Rigidity => rigidity_entry(
-            scene.rigidity.get(vertex).copied().unwrap_or(1),
-            scene.ramp_max,
-        ),
+        Coloring::Rigidity => rigidity_entry(scene.rigidity.get(vertex).copied().unwrap_or(1), scene.ramp_max),
         Coloring::Energy => {
-            let value = scene
-                .values
-                .as_ref()
-                .and_then(|values| values.get(vertex))
-                .copied()
-                .unwrap_or(0.0);
+            let value = scene.values.as_ref().and_then(|values| values.get(vertex)).copied().unwrap_or(0.0);
             // A NaN becomes entry 0 here.
             (value.clamp(0.0, 1.0) * (RAMP_ENTRIES - 1) as f32).round() as usize
         }
@@ -95,11 +79,7 @@ fn ramp_entry(scene: &ViewScene, vertex: usize) -> usize {
 fn rigidity_entry(r: u16, ramp_max: u16) -> usize {
     let most = usize::from(ramp_max.max(2) - 1);
     let steps = usize::from(r.max(1) - 1).min(most);
-    if most < RAMP_ENTRIES {
-        steps
-    } else {
-        steps * (RAMP_ENTRIES - 1) / most
-    }
+    if most < RAMP_ENTRIES { steps } else { steps * (RAMP_ENTRIES - 1) / most }
 }
 
 #[cfg(test)]
@@ -142,19 +122,12 @@ mod tests {
     fn the_surface_has_the_colors_of_the_legend() {
         for max in [2, 6, 20, 300, u16::MAX] {
             let rs = [1, 2, max / 2 + 1, max, u16::MAX, 0];
-            for (index, color) in colors(&painted(&rs, max, 1.0), rs.len())
-                .into_iter()
-                .enumerate()
-            {
+            for (index, color) in colors(&painted(&rs, max, 1.0), rs.len()).into_iter().enumerate() {
                 let expected = linear(rigidity_color(rs[index], max));
                 // Half a step of eight bits in the root, and half a table step of ramps that are sampled.
                 let tolerance = if max > 256 { 4 } else { 1 };
                 for (got, expected) in color.into_iter().zip(roots(expected)) {
-                    assert!(
-                        got.abs_diff(expected) <= tolerance,
-                        "r {} of {max}: {color:?}",
-                        rs[index]
-                    );
+                    assert!(got.abs_diff(expected) <= tolerance, "r {} of {max}: {color:?}", rs[index]);
                 }
             }
         }

@@ -17,17 +17,16 @@ impl Layouts {
     /// Asks the device what it can do.
     pub(super) fn new(device: &wgpu::Device) -> Layouts {
         let limits = device.limits();
-        let can_fetch = limits.max_storage_buffers_per_shader_stage >= FETCHED
-            && limits.max_storage_buffer_binding_size > 0;
+        let can_fetch =
+            limits.max_storage_buffers_per_shader_stage >= FETCHED && limits.max_storage_buffer_binding_size > 0;
         let uniform = wgpu::BufferBindingType::Uniform;
         let storage = wgpu::BufferBindingType::Storage { read_only: true };
         let visible = wgpu::ShaderStages::VERTEX_FRAGMENT;
         Layouts {
             picture: layout(device, "picture", &[entry(0, visible, uniform)]),
             fetch: can_fetch.then(|| {
-                let entries: Vec<_> = (0..FETCHED)
-                    .map(|binding| entry(binding, wgpu::ShaderStages::VERTEX, storage))
-                    .collect();
+                let entries: Vec<_> =
+                    (0..FETCHED).map(|binding| entry(binding, wgpu::ShaderStages::VERTEX, storage)).collect();
                 layout(device, "fetch", &entries)
             }),
         }
@@ -44,40 +43,17 @@ impl Layouts {
         let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("picture"),
             layout: &self.picture,
-            entries: &[wgpu::BindGroupEntry {
-                binding: 0,
-                resource: buffer.as_entire_binding(),
-            }],
+            entries: &[wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() }],
         });
         (buffer, group)
     }
 }
 
-fn layout(
-    device: &wgpu::Device,
-    label: &str,
-    entries: &[wgpu::BindGroupLayoutEntry],
-) -> wgpu::BindGroupLayout {
-    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some(label),
-        entries,
-    })
+fn layout(device: &wgpu::Device, label: &str, entries: &[wgpu::BindGroupLayoutEntry]) -> wgpu::BindGroupLayout {
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(label), entries })
 }
 
-fn entry(
-    binding: u32,
-    visibility: wgpu::ShaderStages,
-    ty: wgpu::BufferBindingType,
-) -> wgpu::BindGroupLayoutEntry {
-    let ty = wgpu::BindingType::Buffer {
-        ty,
-        has_dynamic_offset: false,
-        min_binding_size: None,
-    };
-    wgpu::BindGroupLayoutEntry {
-        binding,
-        visibility,
-        ty,
-        count: None,
-    }
+fn entry(binding: u32, visibility: wgpu::ShaderStages, ty: wgpu::BufferBindingType) -> wgpu::BindGroupLayoutEntry {
+    let ty = wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None };
+    wgpu::BindGroupLayoutEntry { binding, visibility, ty, count: None }
 }

@@ -28,21 +28,13 @@ const DOT_ATTRIBUTES: [wgpu::VertexAttribute; 3] =
 const LINE_ATTRIBUTES: [wgpu::VertexAttribute; 4] =
     wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32, 3 => Unorm8x4];
 /// Buffer of dots, as the program reads it.
-pub(super) const DOT_LAYOUT: wgpu::VertexBufferLayout<'static> =
-    instances(size_of::<DotInstance>(), &DOT_ATTRIBUTES);
+pub(super) const DOT_LAYOUT: wgpu::VertexBufferLayout<'static> = instances(size_of::<DotInstance>(), &DOT_ATTRIBUTES);
 /// Buffer of lines, as the program reads it.
 pub(super) const LINE_LAYOUT: wgpu::VertexBufferLayout<'static> =
     instances(size_of::<LineInstance>(), &LINE_ATTRIBUTES);
 
-const fn instances(
-    stride: usize,
-    attributes: &'static [wgpu::VertexAttribute],
-) -> wgpu::VertexBufferLayout<'static> {
-    wgpu::VertexBufferLayout {
-        array_stride: stride as u64,
-        step_mode: wgpu::VertexStepMode::Instance,
-        attributes,
-    }
+const fn instances(stride: usize, attributes: &'static [wgpu::VertexAttribute]) -> wgpu::VertexBufferLayout<'static> {
+    wgpu::VertexBufferLayout { array_stride: stride as u64, step_mode: wgpu::VertexStepMode::Instance, attributes }
 }
 
 /// Dots and lines of the picture on the device.
@@ -71,33 +63,17 @@ impl Marks {
 
     /// Brings the scene's marks to the device, if they are not there already.
     pub(super) fn upload(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, scene: &ViewScene) {
-        if !self
-            .shown_dots
-            .as_ref()
-            .is_some_and(|dots| Arc::ptr_eq(dots, &scene.dots))
-        {
+        if !self.shown_dots.as_ref().is_some_and(|dots| Arc::ptr_eq(dots, &scene.dots)) {
             let instances: Vec<DotInstance> = scene.dots.iter().map(dot_instance).collect();
             self.n_dots = instances.len() as u32;
-            self.dots
-                .write(device, queue, bytemuck::cast_slice(&instances));
+            self.dots.write(device, queue, bytemuck::cast_slice(&instances));
         }
-        if !self
-            .shown_lines
-            .as_ref()
-            .is_some_and(|lines| Arc::ptr_eq(lines, &scene.lines))
-        {
-            let of = |on_top: bool| {
-                scene
-                    .lines
-                    .iter()
-                    .filter(move |line| line.on_top == on_top)
-                    .map(line_instance)
-            };
+        if !self.shown_lines.as_ref().is_some_and(|lines| Arc::ptr_eq(lines, &scene.lines)) {
+            let of = |on_top: bool| scene.lines.iter().filter(move |line| line.on_top == on_top).map(line_instance);
             let instances: Vec<LineInstance> = of(false).chain(of(true)).collect();
             let n_on_top = scene.lines.iter().filter(|line| line.on_top).count() as u32;
             self.n_lines = [instances.len() as u32 - n_on_top, n_on_top];
-            self.lines
-                .write(device, queue, bytemuck::cast_slice(&instances));
+            self.lines.write(device, queue, bytemuck::cast_slice(&instances));
         }
         self.shown_dots = Some(scene.dots.clone());
         self.shown_lines = Some(scene.lines.clone());
@@ -109,12 +85,7 @@ impl Marks {
         quads(pass, &pipelines.lines, &self.lines, 0..n_hideable);
         quads(pass, &pipelines.dots_hidden, &self.dots, 0..self.n_dots);
         quads(pass, &pipelines.dots_visible, &self.dots, 0..self.n_dots);
-        quads(
-            pass,
-            &pipelines.lines_on_top,
-            &self.lines,
-            n_hideable..n_hideable + n_on_top,
-        );
+        quads(pass, &pipelines.lines_on_top, &self.lines, n_hideable..n_hideable + n_on_top);
     }
 }
 
@@ -135,18 +106,9 @@ fn quads(
 }
 
 fn dot_instance(dot: &Dot) -> DotInstance {
-    DotInstance {
-        position: dot.position.to_array(),
-        radius: dot.radius_px,
-        color: dot.color,
-    }
+    DotInstance { position: dot.position.to_array(), radius: dot.radius_px, color: dot.color }
 }
 
 fn line_instance(line: &Line) -> LineInstance {
-    LineInstance {
-        a: line.a.to_array(),
-        b: line.b.to_array(),
-        width: line.width_px,
-        color: line.color,
-    }
+    LineInstance { a: line.a.to_array(), b: line.b.to_array(), width: line.width_px, color: line.color }
 }

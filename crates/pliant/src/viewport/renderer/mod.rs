@@ -1,6 +1,6 @@
 //! Draws a [`ViewScene`] into an offscreen picture. Long-lived pipelines and buffers here, what is seen in the scene.
 //!
-//! One pass: background, surface (with or without edges), ground grid, lines, dots twice (dimmed, then in full where nothing
+//! One pass: surface (with or without edges), background where it left room, ground grid, lines, dots twice (dimmed, then in full where nothing
 //! hides them), lines on top. Depth is a reversed float. Colors are encoded to sRGB in the shaders, since sRGB views of a plain target
 //! are not to be had everywhere, and so blending happens on encoded colors, as in the rest of the window.
 
@@ -24,11 +24,7 @@ use uniforms::Picture;
 
 /// Samples a pixel that suit an adapter: 4, or 1 where the processor draws.
 pub fn samples_for(info: &wgpu::AdapterInfo) -> u32 {
-    if info.device_type == wgpu::DeviceType::Cpu {
-        1
-    } else {
-        4
-    }
+    if info.device_type == wgpu::DeviceType::Cpu { 1 } else { 4 }
 }
 
 /// Long-lived pipelines and buffers; draws offscreen into `Rgba8Unorm` with gamma encoded in the shader.
@@ -89,19 +85,12 @@ impl Renderer {
         if resized {
             self.replace_targets(size, self.targets.samples);
         }
-        let unchanged = self
-            .shown
-            .as_ref()
-            .is_some_and(|shown| shown.same_picture(scene));
+        let unchanged = self.shown.as_ref().is_some_and(|shown| shown.same_picture(scene));
         if !unchanged {
             self.upload(scene);
         }
         if resized || !unchanged {
-            self.queue.write_buffer(
-                &self.uniforms,
-                0,
-                bytemuck::bytes_of(&Picture::new(scene, size)),
-            );
+            self.queue.write_buffer(&self.uniforms, 0, bytemuck::bytes_of(&Picture::new(scene, size)));
             self.draw(scene);
             self.shown = Some(scene.clone());
         }
@@ -138,18 +127,14 @@ impl Renderer {
     }
 
     fn draw(&self, scene: &ViewScene) {
-        let mut encoder = self
-            .device
-            .create_command_encoder(&wgpu::CommandEncoderDescriptor {
-                label: Some("viewport"),
-            });
+        let mut encoder =
+            self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("viewport") });
         {
             let mut pass = self.targets.begin(&mut encoder);
             pass.set_bind_group(0, &self.group, &[]);
             pass.set_pipeline(&self.pipelines.background);
             pass.draw(0..3, 0..1);
-            self.surface
-                .draw(&mut pass, &self.pipelines, scene.wireframe);
+            self.surface.draw(&mut pass, &self.pipelines, scene.wireframe);
             if scene.grid {
                 pass.set_pipeline(&self.pipelines.grid);
                 pass.draw(0..4, 0..1);

@@ -25,10 +25,7 @@ impl Modules {
     pub(super) fn new(device: &wgpu::Device, layouts: &Layouts) -> Modules {
         let module = |label, text: &'static str| {
             let source = wgpu::ShaderSource::Wgsl(text.into());
-            device.create_shader_module(wgpu::ShaderModuleDescriptor {
-                label: Some(label),
-                source,
-            })
+            device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(label), source })
         };
         let layout = |groups: &[Option<&wgpu::BindGroupLayout>]| {
             device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -46,10 +43,7 @@ impl Modules {
             dots: module("dots", shaders::DOTS),
             lines: module("lines", shaders::LINES),
             picture_only: layout(&[Some(&layouts.picture)]),
-            with_fetch: layouts
-                .fetch
-                .as_ref()
-                .map(|fetch| layout(&[Some(&layouts.picture), Some(fetch)])),
+            with_fetch: layouts.fetch.as_ref().map(|fetch| layout(&[Some(&layouts.picture), Some(fetch)])),
         }
     }
 }
@@ -90,39 +84,18 @@ const SURFACE_LAYOUT: [Option<wgpu::VertexBufferLayout<'static>>; 3] = [
 const EDGE_LAYOUT: [Option<wgpu::VertexBufferLayout<'static>>; 1] =
     [Some(one(12, &wgpu::vertex_attr_array![0 => Float32x3]))];
 
-const fn one(
-    stride: u64,
-    attributes: &'static [wgpu::VertexAttribute],
-) -> wgpu::VertexBufferLayout<'static> {
-    wgpu::VertexBufferLayout {
-        array_stride: stride,
-        step_mode: wgpu::VertexStepMode::Vertex,
-        attributes,
-    }
+const fn one(stride: u64, attributes: &'static [wgpu::VertexAttribute]) -> wgpu::VertexBufferLayout<'static> {
+    wgpu::VertexBufferLayout { array_stride: stride, step_mode: wgpu::VertexStepMode::Vertex, attributes }
 }
 
 impl Pipelines {
     /// Builds all pipelines for a number of samples.
-    pub(super) fn new(
-        device: &wgpu::Device,
-        layouts: &Layouts,
-        modules: &Modules,
-        samples: u32,
-    ) -> Pipelines {
+    pub(super) fn new(device: &wgpu::Device, layouts: &Layouts, modules: &Modules, samples: u32) -> Pipelines {
         debug_assert_eq!(layouts.fetch.is_some(), modules.with_fetch.is_some());
         let build = |recipe: &Recipe<'_>| build(device, recipe, samples);
         let mark = |label, module, fragment, buffers, depth| {
             let (layout, topology) = (&modules.picture_only, TriangleStrip);
-            build(&Recipe {
-                label,
-                layout,
-                module,
-                fragment,
-                buffers,
-                topology,
-                depth,
-                opaque: false,
-            })
+            build(&Recipe { label, layout, module, fragment, buffers, topology, depth, opaque: false })
         };
         let surface = Recipe {
             label: "surface",
@@ -138,17 +111,12 @@ impl Pipelines {
             label: "background",
             module: &modules.background,
             buffers: &[],
-            depth: Always,
+            depth: GreaterEqual,
             opaque: false,
             ..surface
         };
-        let wireframe = |layout| Recipe {
-            label: "wireframe",
-            layout,
-            module: &modules.wireframe,
-            buffers: &[],
-            ..surface
-        };
+        let wireframe =
+            |layout| Recipe { label: "wireframe", layout, module: &modules.wireframe, buffers: &[], ..surface };
         let edges = Recipe {
             label: "edges",
             module: &modules.edges,
@@ -160,50 +128,19 @@ impl Pipelines {
         Pipelines {
             background: build(&background),
             surface: build(&surface),
-            wireframe: modules
-                .with_fetch
-                .as_ref()
-                .map(|layout| build(&wireframe(layout))),
+            wireframe: modules.with_fetch.as_ref().map(|layout| build(&wireframe(layout))),
             edges: build(&edges),
             grid: mark("grid", &modules.grid, "fragment", &[], GreaterEqual),
-            dots_hidden: mark(
-                "hidden dots",
-                &modules.dots,
-                "hidden",
-                &[Some(DOT_LAYOUT)],
-                Always,
-            ),
-            dots_visible: mark(
-                "dots",
-                &modules.dots,
-                "visible",
-                &[Some(DOT_LAYOUT)],
-                GreaterEqual,
-            ),
-            lines: mark(
-                "lines",
-                &modules.lines,
-                "fragment",
-                &[Some(LINE_LAYOUT)],
-                GreaterEqual,
-            ),
-            lines_on_top: mark(
-                "lines on top",
-                &modules.lines,
-                "fragment",
-                &[Some(LINE_LAYOUT)],
-                Always,
-            ),
+            dots_hidden: mark("hidden dots", &modules.dots, "hidden", &[Some(DOT_LAYOUT)], Always),
+            dots_visible: mark("dots", &modules.dots, "visible", &[Some(DOT_LAYOUT)], GreaterEqual),
+            lines: mark("lines", &modules.lines, "fragment", &[Some(LINE_LAYOUT)], GreaterEqual),
+            lines_on_top: mark("lines on top", &modules.lines, "fragment", &[Some(LINE_LAYOUT)], Always),
         }
     }
 }
 
 fn build(device: &wgpu::Device, recipe: &Recipe<'_>, samples: u32) -> wgpu::RenderPipeline {
-    let blend = if recipe.opaque {
-        None
-    } else {
-        Some(wgpu::BlendState::ALPHA_BLENDING)
-    };
+    let blend = if recipe.opaque { None } else { Some(wgpu::BlendState::ALPHA_BLENDING) };
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some(recipe.label),
         layout: Some(recipe.layout),
@@ -213,10 +150,7 @@ fn build(device: &wgpu::Device, recipe: &Recipe<'_>, samples: u32) -> wgpu::Rend
             compilation_options: wgpu::PipelineCompilationOptions::default(),
             buffers: recipe.buffers,
         },
-        primitive: wgpu::PrimitiveState {
-            topology: recipe.topology,
-            ..Default::default()
-        },
+        primitive: wgpu::PrimitiveState { topology: recipe.topology, ..Default::default() },
         depth_stencil: Some(wgpu::DepthStencilState {
             format: DEPTH,
             depth_write_enabled: Some(recipe.opaque),
@@ -224,19 +158,12 @@ fn build(device: &wgpu::Device, recipe: &Recipe<'_>, samples: u32) -> wgpu::Rend
             stencil: wgpu::StencilState::default(),
             bias: wgpu::DepthBiasState::default(),
         }),
-        multisample: wgpu::MultisampleState {
-            count: samples,
-            ..Default::default()
-        },
+        multisample: wgpu::MultisampleState { count: samples, ..Default::default() },
         fragment: Some(wgpu::FragmentState {
             module: recipe.module,
             entry_point: Some(recipe.fragment),
             compilation_options: wgpu::PipelineCompilationOptions::default(),
-            targets: &[Some(wgpu::ColorTargetState {
-                format: COLOR,
-                blend,
-                write_mask: wgpu::ColorWrites::ALL,
-            })],
+            targets: &[Some(wgpu::ColorTargetState { format: COLOR, blend, write_mask: wgpu::ColorWrites::ALL })],
         }),
         multiview_mask: None,
         cache: None,

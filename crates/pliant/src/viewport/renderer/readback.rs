@@ -21,9 +21,7 @@ pub(super) fn read(
     let padded = tight.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
     let size = u64::from(padded) * u64::from(height);
     if size > device.limits().max_buffer_size {
-        return Err(unreadable(format!(
-            "{width} x {height} pixels exceed its largest buffer"
-        )));
+        return Err(unreadable(format!("{width} x {height} pixels exceed its largest buffer")));
     }
     let buffer = device.create_buffer(&wgpu::BufferDescriptor {
         label: Some("picture read back"),
@@ -31,9 +29,7 @@ pub(super) fn read(
         usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
         mapped_at_creation: false,
     });
-    let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor {
-        label: Some("read back"),
-    });
+    let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("read back") });
     encoder.copy_texture_to_buffer(
         targets.color.as_image_copy(),
         wgpu::TexelCopyBufferInfo {
@@ -54,24 +50,15 @@ pub(super) fn read(
         let _ = sender.send(mapped);
     });
     device
-        .poll(wgpu::PollType::Wait {
-            submission_index: Some(submission),
-            timeout: Some(PATIENCE),
-        })
+        .poll(wgpu::PollType::Wait { submission_index: Some(submission), timeout: Some(PATIENCE) })
         .map_err(|error| unreadable(error.to_string()))?;
-    receiver
-        .try_recv()
-        .map_err(|_| unreadable("no answer".into()))?
-        .map_err(|error| unreadable(error.to_string()))?;
-    let mapped = buffer
-        .get_mapped_range(..)
-        .map_err(|error| unreadable(error.to_string()))?;
+    receiver.try_recv().map_err(|_| unreadable("no answer".into()))?.map_err(|error| unreadable(error.to_string()))?;
+    let mapped = buffer.get_mapped_range(..).map_err(|error| unreadable(error.to_string()))?;
     let mut pixels = Vec::with_capacity(tight as usize * height as usize);
     for row in mapped.chunks_exact(padded as usize) {
         pixels.extend_from_slice(&row[..tight as usize]);
     }
-    image::RgbaImage::from_raw(width, height, pixels)
-        .ok_or_else(|| unreadable("too few bytes".into()))
+    image::RgbaImage::from_raw(width, height, pixels).ok_or_else(|| unreadable("too few bytes".into()))
 }
 
 fn unreadable(reason: String) -> GpuError {

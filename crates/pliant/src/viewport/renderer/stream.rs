@@ -19,11 +19,7 @@ pub(super) enum Written {
 impl Stream {
     /// An empty stream; nothing is allocated.
     pub(super) fn new(label: &'static str, usage: wgpu::BufferUsages) -> Stream {
-        Stream {
-            label,
-            usage: usage | wgpu::BufferUsages::COPY_DST,
-            buffer: None,
-        }
+        Stream { label, usage: usage | wgpu::BufferUsages::COPY_DST, buffer: None }
     }
 
     /// The buffer, if there is anything in it.
@@ -32,12 +28,7 @@ impl Stream {
     }
 
     /// Replaces the contents. Bytes beyond what a buffer of this device can hold leave the stream empty, with a warning.
-    pub(super) fn write(
-        &mut self,
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        bytes: &[u8],
-    ) -> Written {
+    pub(super) fn write(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, bytes: &[u8]) -> Written {
         let written = self.reserve(device, bytes.len() as u64);
         if let Some(buffer) = &self.buffer
             && !bytes.is_empty()

@@ -52,15 +52,12 @@ impl Picture {
     pub(super) fn new(scene: &ViewScene, size_px: [u32; 2]) -> Picture {
         let camera = &scene.camera;
         let size = Vec2::new(size_px[0] as f32, size_px[1] as f32);
-        let density = if scene.pixels_per_point > 0.0 {
-            scene.pixels_per_point
-        } else {
-            1.0
-        };
+        let density = if scene.pixels_per_point > 0.0 { scene.pixels_per_point } else { 1.0 };
         // View space is measured in distances to the target, see common.wgsl.
         let to_unit = Mat4::from_scale(Vec3::splat(camera.distance.recip()));
         let from_unit = Mat4::from_scale(Vec3::splat(camera.distance));
         let flag = |on: bool| if on { 1.0 } else { 0.0 };
+        let has_normals = scene.frame.normals.len() == scene.frame.positions.len();
         let (grid, grid_extent) = grid(scene.bounds);
         Picture {
             view_from_world: (to_unit * camera.view_from_world()).to_cols_array(),
@@ -68,7 +65,7 @@ impl Picture {
             viewport: [size.x, size.y, density, camera.focal_px(size)],
             modes: [
                 flag(camera.projection == Projection::Orthographic),
-                flag(scene.shading == Shading::Flat),
+                flag(scene.shading == Shading::Flat || !has_normals),
                 WIRE_HALF_WIDTH * density,
                 NEAREST,
             ],
@@ -83,35 +80,18 @@ impl Picture {
 /// are in the world while the bounds move.
 fn grid(bounds: (Vec3, Vec3)) -> ([f32; 4], [f32; 4]) {
     let (center, radius) = sphere(bounds.0, bounds.1);
-    let floor = if bounds.0.y.is_finite() {
-        bounds.0.y
-    } else {
-        center.y - radius
-    } - radius * GRID_DROP;
+    let floor = if bounds.0.y.is_finite() { bounds.0.y } else { center.y - radius } - radius * GRID_DROP;
     let wanted = radius * 0.2;
     let power = 10_f32.powf(wanted.log10().floor());
-    let cell = [5.0, 2.0, 1.0]
-        .into_iter()
-        .map(|step| step * power)
-        .find(|cell| *cell <= wanted)
-        .unwrap_or(power);
+    let cell = [5.0, 2.0, 1.0].into_iter().map(|step| step * power).find(|cell| *cell <= wanted).unwrap_or(power);
     let phase = |along: f32| (along / cell).rem_euclid(MAJOR);
-    (
-        [center.x, floor, center.z, cell],
-        [radius * GRID_RADII, phase(center.x), phase(center.z), 0.0],
-    )
+    ([center.x, floor, center.z, cell], [radius * GRID_RADII, phase(center.x), phase(center.z), 0.0])
 }
 
-/// Colors and lamps of a theme. All by eye.
+/// Colors and lamps of a theme. All by eye; selection is green, which neither ramp contains.
 fn light(theme: Theme) -> Light {
-    let encoded = |[r, g, b]: [u8; 3], alpha: f32| {
-        [
-            f32::from(r) / 255.0,
-            f32::from(g) / 255.0,
-            f32::from(b) / 255.0,
-            alpha,
-        ]
-    };
+    let encoded =
+        |[r, g, b]: [u8; 3], alpha: f32| [f32::from(r) / 255.0, f32::from(g) / 255.0, f32::from(b) / 255.0, alpha];
     let lit = |srgb: [u8; 3], strength: f32| linear(srgb).extend(strength).to_array();
     let lamp = |srgb: [u8; 3], strength: f32| (linear(srgb) * strength).extend(1.0).to_array();
     match theme {
@@ -119,7 +99,7 @@ fn light(theme: Theme) -> Light {
             background_top: encoded([58, 62, 70], 1.0),
             background_bottom: encoded([25, 27, 31], 1.0),
             back_tint: lit([150, 84, 64], 0.7),
-            accent: lit([255, 166, 40], 0.7),
+            accent: lit([52, 222, 160], 0.75),
             key: lamp([255, 246, 234], 0.98),
             fill: lamp([176, 202, 255], 0.17),
             sky: lamp([222, 232, 255], 0.20),
@@ -132,7 +112,7 @@ fn light(theme: Theme) -> Light {
             background_top: encoded([246, 248, 250], 1.0),
             background_bottom: encoded([208, 213, 221], 1.0),
             back_tint: lit([176, 104, 82], 0.7),
-            accent: lit([240, 130, 10], 0.7),
+            accent: lit([20, 186, 130], 0.75),
             key: lamp([255, 248, 238], 0.96),
             fill: lamp([190, 208, 250], 0.17),
             sky: lamp([226, 234, 255], 0.24),
