@@ -48,12 +48,23 @@ impl Headless {
         ];
         let mut tried = Vec::new();
         for (name, backends, in_software) in attempts {
-            match pollster::block_on(open(backends, in_software)) {
+            match pollster::block_on(open(backends, in_software, None)) {
                 Ok(headless) => return Ok(headless),
                 Err(reason) => tried.push(format!("{name}: {reason}")),
             }
         }
         Err(GpuError::NoAdapter { tried: tried.join("; ") })
+    }
+
+    /// A device that can do less than the adapter, to test how the renderer gets by.
+    #[cfg(test)]
+    pub(super) fn with_limits(limits: wgpu::Limits) -> Result<Headless, String> {
+        pollster::block_on(open(wgpu::Backends::all(), false, Some(limits)))
+    }
+
+    /// What the device complained about since the last call.
+    pub fn take_error(&self) -> Option<String> {
+        self.watch.take_error()
     }
 
     /// Why the device was lost, if it was.
@@ -63,7 +74,8 @@ impl Headless {
 }
 
 /// A device of one kind of adapter, with everything that adapter can do. The reason in one line otherwise.
-async fn open(backends: wgpu::Backends, in_software: bool) -> Result<Headless, String> {
+/// `limits` asks for a lesser device.
+async fn open(backends: wgpu::Backends, in_software: bool, limits: Option<wgpu::Limits>) -> Result<Headless, String> {
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
         backends,
         ..wgpu::InstanceDescriptor::new_without_display_handle()
@@ -75,8 +87,11 @@ async fn open(backends: wgpu::Backends, in_software: bool) -> Result<Headless, S
     };
     let adapter = instance.request_adapter(&options).await.map_err(|error| one_line(&error))?;
     let info = adapter.get_info();
-    let descriptor =
-        wgpu::DeviceDescriptor { label: Some("pliant"), required_limits: adapter.limits(), ..Default::default() };
+    let descriptor = wgpu::DeviceDescriptor {
+        label: Some("pliant"),
+        required_limits: limits.unwrap_or_else(|| adapter.limits()),
+        ..Default::default()
+    };
     let (device, queue) = adapter
         .request_device(&descriptor)
         .await

@@ -14,6 +14,9 @@ mod surface;
 mod targets;
 mod uniforms;
 
+#[cfg(test)]
+mod tests;
+
 use super::{GpuError, ViewScene};
 use layouts::Layouts;
 use marks::Marks;

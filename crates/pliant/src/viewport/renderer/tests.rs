@@ -1,0 +1,104 @@
+//! How the renderer gets by on devices that can do less.
+
+use super::super::{Camera, Coloring, Headless, Shading, SurfaceFrame, Theme};
+use super::*;
+use glam::Vec3;
+use std::sync::Arc;
+
+const SIZE: [u32; 2] = [120, 90];
+/// Cells along a side of the test sheet: 2 · 40² triangles, 38,400 bytes of corners.
+const CELLS: u32 = 40;
+
+/// A flat sheet across the view, seen from the front, with edges.
+fn sheet() -> ViewScene {
+    let row = CELLS + 1;
+    let place = |i: u32| i as f32 / CELLS as f32 * 2.0 - 1.0;
+    let positions: Vec<Vec3> = (0..row * row).map(|i| Vec3::new(place(i % row), place(i / row), 0.0)).collect();
+    let triangles: Arc<[[u32; 3]]> = (0..CELLS * CELLS)
+        .flat_map(|cell| {
+            let a = cell / CELLS * row + cell % CELLS;
+            [[a, a + 1, a + row + 1], [a, a + row + 1, a + row]]
+        })
+        .collect();
+    let bounds = (Vec3::new(-1.0, -1.0, 0.0), Vec3::new(1.0, 1.0, 0.0));
+    let mut camera = Camera::framing(bounds.0, bounds.1);
+    camera.look_along(super::super::Axis::Front);
+    camera.frame(bounds.0, bounds.1);
+    ViewScene {
+        triangles,
+        rigidity: Arc::new([]),
+        frame: Arc::new(SurfaceFrame { normals: vec![Vec3::Z; positions.len()], positions }),
+        values: None,
+        selected: None,
+        base_colors: None,
+        dots: Arc::new([]),
+        lines: Arc::new([]),
+        coloring: Coloring::Plain,
+        ramp_max: 6,
+        color_opacity: 1.0,
+        shading: Shading::Smooth,
+        wireframe: false,
+        grid: false,
+        theme: Theme::Light,
+        camera,
+        bounds,
+        pixels_per_point: 1.0,
+    }
+}
+
+/// A device with these limits and a picture drawn on it; nothing may have been complained about.
+fn drawn_within(limits: wgpu::Limits, scene: &ViewScene) -> image::RgbaImage {
+    let headless = Headless::with_limits(limits)
+        .unwrap_or_else(|error| panic!("{error}; `apt-get install mesa-vulkan-drivers` brings a software adapter"));
+    let mut renderer = Renderer::new(&headless.device, &headless.queue, 1);
+    renderer.render(scene, SIZE);
+    let picture = renderer.try_read_pixels().expect("the picture can be read");
+    assert_eq!(headless.take_error(), None, "the device complained");
+    picture
+}
+
+/// Pixels darker than the sheet's light.
+fn n_dark(picture: &image::RgbaImage) -> usize {
+    picture.pixels().filter(|px| px.0[1] < 120).count()
+}
+
+#[test]
+fn edges_are_lines_where_vertices_cannot_be_fetched() {
+    let webgl = wgpu::Limits { max_texture_dimension_2d: 1024, ..wgpu::Limits::downlevel_webgl2_defaults() };
+    let mut scene = sheet();
+    // Only some triangles, so that edges are apart.
+    scene.triangles = scene.triangles.iter().copied().step_by(9).collect();
+    let plain = drawn_within(webgl.clone(), &scene);
+    scene.wireframe = true;
+    let wired = drawn_within(webgl, &scene);
+    let changed = plain.pixels().zip(wired.pixels()).filter(|(a, b)| a.0[1] > b.0[1].saturating_add(20)).count();
+    assert!(changed > 200, "{changed} pixels got darker");
+}
+
+#[test]
+fn meshes_beyond_one_buffer_are_drawn_in_parts() {
+    let scene = sheet();
+    let whole = drawn_within(wgpu::Limits::defaults(), &scene);
+    // Room for the picture read back (120 x 90 in rows of 512 bytes), but not for all corners.
+    let small =
+        wgpu::Limits { max_buffer_size: 46_080, max_storage_buffer_binding_size: 24_000, ..wgpu::Limits::defaults() };
+    for wireframe in [false, true] {
+        let scene = ViewScene { wireframe, ..scene.clone() };
+        let parts = drawn_within(small.clone(), &scene);
+        let expected = if wireframe { drawn_within(wgpu::Limits::defaults(), &scene) } else { whole.clone() };
+        let differing = parts.pixels().zip(expected.pixels()).filter(|(a, b)| a != b).count();
+        assert_eq!(differing, 0, "wireframe {wireframe}");
+    }
+}
+
+#[test]
+fn meshes_beyond_the_device_leave_the_background() {
+    let tiny =
+        wgpu::Limits { max_buffer_size: 16_384, max_storage_buffer_binding_size: 16_384, ..wgpu::Limits::defaults() };
+    let headless = Headless::with_limits(tiny).expect("any adapter; `apt-get install mesa-vulkan-drivers`");
+    let mut renderer = Renderer::new(&headless.device, &headless.queue, 1);
+    renderer.render(&sheet(), [16, 16]);
+    let picture = renderer.try_read_pixels().expect("the picture can be read");
+    assert_eq!(headless.take_error(), None, "the device complained");
+    assert_eq!(n_dark(&picture), 0, "only the light background");
+}
