@@ -13,10 +13,7 @@ use std::path::{Path, PathBuf};
 pub(crate) fn run(check: bool) -> Result<(), Failure> {
     let folder = folder();
     if check {
-        let made = tempfile::tempdir().map_err(|source| Failure::File {
-            path: std::env::temp_dir(),
-            source,
-        })?;
+        let made = tempfile::tempdir().map_err(|source| Failure::File { path: std::env::temp_dir(), source })?;
         let names = write_all(made.path())?;
         let differs = |name: &String| fs::read(made.path().join(name)).ok() != fs::read(folder.join(name)).ok();
         let stale: Vec<String> = names.iter().filter(|name| differs(name)).cloned().collect();
@@ -25,10 +22,7 @@ pub(crate) fn run(check: bool) -> Result<(), Failure> {
         }
         eprintln!("assets: {} files are up to date", names.len());
     } else {
-        fs::create_dir_all(&folder).map_err(|source| Failure::File {
-            path: folder.clone(),
-            source,
-        })?;
+        fs::create_dir_all(&folder).map_err(|source| Failure::File { path: folder.clone(), source })?;
         let names = write_all(&folder)?;
         eprintln!("assets: {} files written to {}", names.len(), folder.display());
     }
@@ -49,11 +43,7 @@ fn write_all(folder: &Path) -> Result<Vec<String>, Failure> {
         let mesh = MeshFile::from_triangles(sample.name, shape.positions.clone(), shape.triangles.clone());
         names.push(format!("{}.glb", sample.name));
         let path = folder.join(format!("{}.glb", sample.name));
-        mesh.save(&path, &mesh.points(), None)
-            .map_err(|source| Failure::Sample {
-                name: sample.name,
-                source,
-            })?;
+        mesh.save(&path, &mesh.points(), None).map_err(|source| Failure::Sample { name: sample.name, source })?;
         for (name, text) in texts(&sample, &shape) {
             let path = folder.join(&name);
             fs::write(&path, text).map_err(|source| Failure::File { path, source })?;
@@ -66,14 +56,10 @@ fn write_all(folder: &Path) -> Result<Vec<String>, Failure> {
 /// Names and contents of the text files beside a mesh.
 fn texts(sample: &Sample, shape: &Shape) -> Vec<(String, String)> {
     let handles = (sample.handles)(shape).into_iter();
-    let mut texts: Vec<(String, String)> = handles
-        .map(|(suffix, h)| (format!("{}{suffix}.handles.json", sample.name), h.to_json()))
-        .collect();
+    let mut texts: Vec<(String, String)> =
+        handles.map(|(suffix, h)| (format!("{}{suffix}.handles.json", sample.name), h.to_json())).collect();
     if let Some(rigidity) = sample.rigidity {
-        texts.push((
-            format!("{}.rigidity.json", sample.name),
-            format!("{}\n", serde_json::json!(rigidity(shape))),
-        ));
+        texts.push((format!("{}.rigidity.json", sample.name), format!("{}\n", serde_json::json!(rigidity(shape)))));
     }
     texts
 }

@@ -10,16 +10,15 @@ pub(crate) enum Failure {
     #[error("{program} could not be started: {source}")]
     Start { program: String, source: std::io::Error },
     #[error("sample {name} could not be written: {source}")]
-    Sample {
-        name: &'static str,
-        source: pliant_meshfile::SaveError,
-    },
+    Sample { name: &'static str, source: pliant_meshfile::SaveError },
     #[error("{n} of the files in assets/ are not what `cargo xtask assets` makes (first: {first}); run it and commit what changed", n = .0.len(), first = .0[0])]
     Stale(Vec<String>),
     #[error(
         "no Vulkan driver found: the image tests need one, a software one will do; install {0}, then run this again"
     )]
     NoVulkan(&'static str),
+    #[error("{variable} names Vulkan drivers that are not there: {files}; unset or correct it")]
+    NoNamedDriver { variable: &'static str, files: String },
     #[error("some tests failed")]
     TestsFailed,
 }

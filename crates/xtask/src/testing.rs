@@ -42,11 +42,7 @@ fn runs(nextest: bool, filter: &[String]) -> Vec<Vec<String>> {
 }
 
 fn has_nextest() -> bool {
-    let asked = cargo()
-        .args(["nextest", "--version"])
-        .stdout(Stdio::null())
-        .stderr(Stdio::null())
-        .status();
+    let asked = cargo().args(["nextest", "--version"]).stdout(Stdio::null()).stderr(Stdio::null()).status();
     asked.is_ok_and(|status| status.success())
 }
 
@@ -57,21 +53,10 @@ fn cargo() -> Command {
 
 /// Runs cargo, passes on all it prints and adds up the totals in it; whether it succeeded.
 fn run_cargo(arguments: &[String], totals: &mut Totals) -> Result<bool, Failure> {
-    let color = if std::io::IsTerminal::is_terminal(&std::io::stderr()) {
-        "always"
-    } else {
-        "never"
-    };
+    let color = if std::io::IsTerminal::is_terminal(&std::io::stderr()) { "always" } else { "never" };
     let mut command = cargo();
-    command
-        .args(arguments)
-        .env("CARGO_TERM_COLOR", color)
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped());
-    let start = |source| Failure::Start {
-        program: "cargo".into(),
-        source,
-    };
+    command.args(arguments).env("CARGO_TERM_COLOR", color).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let start = |source| Failure::Start { program: "cargo".into(), source };
     let mut child = command.spawn().map_err(start)?;
     // nextest sums up on stderr, `cargo test` on stdout.
     let (out, err) = (child.stdout.take(), child.stderr.take());
@@ -92,10 +77,7 @@ fn pass_on(from: impl Read, mut to: impl Write) -> Totals {
     let mut totals = Totals::default();
     for line in BufReader::new(from).split(b'\n').map_while(Result::ok) {
         // Nobody listening is no reason to stop counting.
-        let _ = to
-            .write_all(&line)
-            .and_then(|()| to.write_all(b"\n"))
-            .and_then(|()| to.flush());
+        let _ = to.write_all(&line).and_then(|()| to.write_all(b"\n")).and_then(|()| to.flush());
         if let Some(found) = totals_in(&without_colors(&String::from_utf8_lossy(&line))) {
             totals.passed += found.passed;
             totals.failed += found.failed;
@@ -107,8 +89,9 @@ fn pass_on(from: impl Read, mut to: impl Write) -> Totals {
 /// The totals in a runner's closing line: `test result: ok. 3 passed; 0 failed; …` of the built-in harness, or `Summary
 /// [ 1.2s] 5 tests run: 4 passed (1 slow), 1 failed, 0 skipped` of nextest.
 fn totals_in(line: &str) -> Option<Totals> {
-    let line = line.trim_start();
-    if !line.starts_with("test result:") && !line.starts_with("Summary [") {
+    // nextest indents what a failed test printed, where the harness sums up just this one.
+    let sums_up = line.starts_with("test result:") || line.trim_start().starts_with("Summary [");
+    if !sums_up {
         return None;
     }
     let words: Vec<&str> = line.split([' ', ',', ';']).filter(|w| !w.is_empty()).collect();
@@ -117,20 +100,13 @@ fn totals_in(line: &str) -> Option<Totals> {
         before.filter_map(|pair| pair[0].parse::<usize>().ok()).sum()
     };
     // What ran out of time or could not be started has not passed either.
-    Some(Totals {
-        passed: count(&["passed"]),
-        failed: count(&["failed", "timed", "exec"]),
-    })
+    Some(Totals { passed: count(&["passed"]), failed: count(&["failed", "timed", "exec"]) })
 }
 
 fn without_colors(line: &str) -> String {
     let mut plain = String::new();
     for (i, piece) in line.split('\u{1b}').enumerate() {
-        plain.push_str(if i == 0 {
-            piece
-        } else {
-            piece.split_once('m').map_or("", |(_, rest)| rest)
-        });
+        plain.push_str(if i == 0 { piece } else { piece.split_once('m').map_or("", |(_, rest)| rest) });
     }
     plain
 }
@@ -146,22 +122,14 @@ mod tests {
                 "test result: ok. 21 passed; 0 failed; 0 ignored; 0 measured; 0 filtered out; finished in 1.20s",
                 Some((21, 0)),
             ),
-            (
-                "test result: FAILED. 2 passed; 3 failed; 0 ignored; 0 measured; 0 filtered out",
-                Some((2, 3)),
-            ),
-            (
-                "     Summary [   1.215s] 21 tests run: 21 passed, 0 skipped",
-                Some((21, 0)),
-            ),
-            (
-                "     Summary [   1.215s] 9 tests run: 6 passed (1 slow), 2 failed, 1 timed out, 4 skipped",
-                Some((6, 3)),
-            ),
+            ("test result: FAILED. 2 passed; 3 failed; 0 ignored; 0 measured; 0 filtered out", Some((2, 3))),
+            ("     Summary [   1.215s] 21 tests run: 21 passed, 0 skipped", Some((21, 0))),
+            ("     Summary [   1.215s] 9 tests run: 6 passed (1 slow), 2 failed, 1 timed out, 4 skipped", Some((6, 3))),
             (
                 "\u{1b}[32;1m     Summary\u{1b}[0m [   0.1s] \u{1b}[1m2\u{1b}[0m tests run: \u{1b}[1m2\u{1b}[0m \u{1b}[32;1mpassed\u{1b}[0m, 0 skipped",
                 Some((2, 0)),
             ),
+            ("    test result: FAILED. 0 passed; 1 failed; 0 ignored", None),
             ("test shapes::bar ... ok", None),
             ("error: 3 failed", None),
         ];
@@ -175,10 +143,7 @@ mod tests {
     fn examples_in_the_documentation_run_with_either_runner() {
         let with = runs(true, &[]);
         assert!(with[0].contains(&"nextest".to_string()) && with[1].contains(&"--doc".to_string()));
-        assert_eq!(
-            runs(false, &["name".to_string()]),
-            [["test", "--workspace", "--no-fail-fast", "name"]]
-        );
+        assert_eq!(runs(false, &["name".to_string()]), [["test", "--workspace", "--no-fail-fast", "name"]]);
     }
 
     #[test]

@@ -36,9 +36,7 @@ fn surface(cells: [u32; 3], length: f64) -> Shape {
                 if !inside {
                     numbers.insert([i, j, k], shape.positions.len() as u32);
                     let along = |step: u32, n: u32, size: f64| size * f64::from(step) / f64::from(n);
-                    shape
-                        .positions
-                        .push(DVec3::new(along(i, nx, length), along(j, ny, 1.0), along(k, nz, 1.0)));
+                    shape.positions.push(DVec3::new(along(i, nx, length), along(j, ny, 1.0), along(k, nz, 1.0)));
                 }
             }
         }
@@ -67,11 +65,7 @@ fn surface(cells: [u32; 3], length: f64) -> Shape {
 
 /// A cell of four corners, counterclockwise, cut along its first or its second diagonal.
 fn cut([a, b, c, d]: [u32; 4], first: bool) -> [[u32; 3]; 2] {
-    if first {
-        [[a, b, c], [a, c, d]]
-    } else {
-        [[a, b, d], [b, c, d]]
-    }
+    if first { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] }
 }
 
 /// The end at x = 0 held, the other carried along an arc in the x-y plane that keeps the middle line's length L: with
@@ -86,11 +80,7 @@ fn arc(shape: &Shape, length: f64, degrees: f64) -> Handles {
     };
     Handles {
         fixed: shape.vertices_where(|p| p.x == 0.0),
-        moved: shape
-            .vertices_where(|p| p.x == length)
-            .into_iter()
-            .map(carried)
-            .collect(),
+        moved: shape.vertices_where(|p| p.x == length).into_iter().map(carried).collect(),
         groups: Vec::new(),
     }
 }
@@ -114,17 +104,9 @@ mod tests {
         let mut valence = vec![0; shape.positions.len()];
         shape.triangles.iter().flatten().for_each(|&v| valence[v as usize] += 1);
         for (v, p) in shape.positions.iter().enumerate() {
-            let on_sides = [
-                p.x == 0.0 || p.x == 7.5,
-                p.y == 0.0 || p.y == 1.0,
-                p.z == 0.0 || p.z == 1.0,
-            ];
+            let on_sides = [p.x == 0.0 || p.x == 7.5, p.y == 0.0 || p.y == 1.0, p.z == 0.0 || p.z == 1.0];
             if on_sides.iter().filter(|&&on| on).count() == 1 {
-                assert!(
-                    valence[v] == 4 || valence[v] == 8,
-                    "vertex {v} at {p}: {} triangles",
-                    valence[v]
-                );
+                assert!(valence[v] == 4 || valence[v] == 8, "vertex {v} at {p}: {} triangles", valence[v]);
             }
         }
     }
@@ -134,23 +116,11 @@ mod tests {
         for (sample, n) in [(BAR, 49), (THIN_BAR, 9)] {
             let shape = (sample.make)();
             for (suffix, handles) in &(sample.handles)(&shape) {
-                assert_eq!(
-                    (handles.fixed.len(), handles.moved.len()),
-                    (n, n),
-                    "{}{suffix}",
-                    sample.name
-                );
+                assert_eq!((handles.fixed.len(), handles.moved.len()), (n, n), "{}{suffix}", sample.name);
                 let rest = |i: usize| shape.positions[handles.moved[i].0 as usize];
                 for i in 1..n {
-                    let (got, expected) = (
-                        handles.moved[i].1.distance(handles.moved[0].1),
-                        rest(i).distance(rest(0)),
-                    );
-                    assert!(
-                        (got - expected).abs() < 1e-9,
-                        "vertex {}: {got} for {expected}",
-                        handles.moved[i].0
-                    );
+                    let (got, expected) = (handles.moved[i].1.distance(handles.moved[0].1), rest(i).distance(rest(0)));
+                    assert!((got - expected).abs() < 1e-9, "vertex {}: {got} for {expected}", handles.moved[i].0);
                 }
             }
         }

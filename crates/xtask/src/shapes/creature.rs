@@ -41,50 +41,19 @@ struct Creature {
 impl Creature {
     fn new() -> Creature {
         let mut body = Union::default();
-        body.join(
-            Part::Ellipsoid {
-                center: at(0.0, 0.62, 0.02),
-                radii: at(0.37, 0.42, 0.35),
-            },
-            0.1,
-        );
-        body.chain(
-            &[
-                (at(0.0, 0.72, 0.0), 0.30),
-                (at(0.0, 1.02, 0.02), 0.21),
-                (at(0.0, 1.34, 0.08), 0.165),
-            ],
-            0.16,
-        );
+        body.join(Part::Ellipsoid { center: at(0.0, 0.62, 0.02), radii: at(0.37, 0.42, 0.35) }, 0.1);
+        body.chain(&[(at(0.0, 0.72, 0.0), 0.30), (at(0.0, 1.02, 0.02), 0.21), (at(0.0, 1.34, 0.08), 0.165)], 0.16);
         body.chain(&TAIL, 0.14);
-        body.join(
-            Part::Ellipsoid {
-                center: HEAD,
-                radii: at(0.315, 0.275, 0.30),
-            },
-            0.14,
-        );
+        body.join(Part::Ellipsoid { center: HEAD, radii: at(0.315, 0.275, 0.30) }, 0.14);
         body.chain(&[(at(0.0, 1.44, 0.28), 0.20), (at(0.0, 1.41, 0.46), 0.165)], 0.14);
         let limbs = vec![raised_arm(), lowered_arm(), leg(1.0), leg(-1.0)];
-        Creature {
-            body,
-            limbs,
-            details: details(),
-            face: face(),
-        }
+        Creature { body, limbs, details: details(), face: face() }
     }
 }
 
 fn raised_arm() -> Union {
     let mut arm = Union::default();
-    arm.chain(
-        &[
-            (at(0.16, 0.97, 0.05), 0.130),
-            (at(0.50, 1.00, 0.12), 0.100),
-            (HAND, 0.085),
-        ],
-        0.05,
-    );
+    arm.chain(&[(at(0.16, 0.97, 0.05), 0.130), (at(0.50, 1.00, 0.12), 0.100), (HAND, 0.085)], 0.05);
     arm.join(ball(HAND, 0.108), 0.06);
     let fingers = [
         (at(0.71, 1.58, 0.26), 0.047),
@@ -92,23 +61,14 @@ fn raised_arm() -> Union {
         (at(0.96, 1.53, 0.28), 0.047),
         (at(0.67, 1.43, 0.36), 0.047),
     ];
-    fingers
-        .into_iter()
-        .for_each(|finger| _ = arm.chain(&[(HAND, 0.055), finger], 0.03));
+    fingers.into_iter().for_each(|finger| _ = arm.chain(&[(HAND, 0.055), finger], 0.03));
     arm
 }
 
 fn lowered_arm() -> Union {
     let hand = at(-0.66, 0.74, 0.42);
     let mut arm = Union::default();
-    arm.chain(
-        &[
-            (at(-0.16, 0.97, 0.05), 0.130),
-            (at(-0.50, 0.83, 0.10), 0.100),
-            (hand, 0.085),
-        ],
-        0.05,
-    );
+    arm.chain(&[(at(-0.16, 0.97, 0.05), 0.130), (at(-0.50, 0.83, 0.10), 0.100), (hand, 0.085)], 0.05);
     arm.join(ball(hand, 0.105), 0.06);
     let fingers = [
         (at(-0.80, 0.66, 0.53), 0.047),
@@ -116,9 +76,7 @@ fn lowered_arm() -> Union {
         (at(-0.55, 0.67, 0.58), 0.047),
         (at(-0.60, 0.87, 0.50), 0.047),
     ];
-    fingers
-        .into_iter()
-        .for_each(|finger| _ = arm.chain(&[(hand, 0.055), finger], 0.03));
+    fingers.into_iter().for_each(|finger| _ = arm.chain(&[(hand, 0.055), finger], 0.03));
     arm
 }
 
@@ -127,17 +85,10 @@ fn leg(side: f64) -> Union {
     let point = |x: f64, y: f64, z: f64| at(side * x, y, z);
     let mut leg = Union::default();
     leg.chain(
-        &[
-            (point(0.20, 0.52, 0.0), 0.20),
-            (point(0.30, 0.30, 0.08), 0.165),
-            (point(0.31, 0.10, 0.02), 0.135),
-        ],
+        &[(point(0.20, 0.52, 0.0), 0.20), (point(0.30, 0.30, 0.08), 0.165), (point(0.31, 0.10, 0.02), 0.135)],
         0.08,
     );
-    leg.chain(
-        &[(point(0.31, 0.08, -0.02), 0.125), (point(0.34, 0.07, 0.20), 0.125)],
-        0.08,
-    );
+    leg.chain(&[(point(0.31, 0.08, -0.02), 0.125), (point(0.34, 0.07, 0.20), 0.125)], 0.08);
     for (x, z) in [(0.24, 0.31), (0.35, 0.345), (0.46, 0.30)] {
         leg.join(ball(point(x, 0.065, z), 0.068), 0.04);
     }
@@ -171,14 +122,7 @@ fn details() -> Vec<Union> {
         plates.chain(&[(from, radius), (to, radius * 0.6)], 0.03);
     }
     let (end, radius) = TAIL[TAIL.len() - 1];
-    tip.chain(
-        &[
-            (end, radius),
-            (end + at(-0.03, 0.10, 0.03), 0.092),
-            (end + at(-0.04, 0.23, 0.05), 0.036),
-        ],
-        0.03,
-    );
+    tip.chain(&[(end, radius), (end + at(-0.03, 0.10, 0.03), 0.092), (end + at(-0.04, 0.23, 0.05), 0.036)], 0.03);
     vec![head, plates, tip]
 }
 
@@ -201,10 +145,7 @@ fn face() -> Union {
 
 impl Field for Creature {
     fn at(&self, p: DVec3) -> f64 {
-        let d = self
-            .limbs
-            .iter()
-            .fold(self.body.at(p), |d, limb| limb.joined_to(d, p, 0.08));
+        let d = self.limbs.iter().fold(self.body.at(p), |d, limb| limb.joined_to(d, p, 0.08));
         let d = self.details.iter().fold(d, |d, detail| detail.joined_to(d, p, 0.045));
         // Taking away is joining the outside.
         let d = -self.face.joined_to(-d, p, 0.03);
@@ -248,19 +189,11 @@ fn rigidity(shape: &Shape) -> Vec<u16> {
 }
 
 /// The soles are held, the raised hand is pulled up and forward, the head tilts.
-pub(crate) const CREATURE: Sample = Sample {
-    name: "creature",
-    make: surface,
-    handles: |shape| vec![("", waving(shape))],
-    rigidity: Some(rigidity),
-};
+pub(crate) const CREATURE: Sample =
+    Sample { name: "creature", make: surface, handles: |shape| vec![("", waving(shape))], rigidity: Some(rigidity) };
 
 fn surface() -> Shape {
-    let grid = Grid {
-        low: at(-1.15, -0.093, -1.42),
-        high: at(1.12, 2.12, 0.80),
-        cell: CELL,
-    };
+    let grid = Grid { low: at(-1.15, -0.093, -1.42), high: at(1.12, 2.12, 0.80), cell: CELL };
     polygonize(&Creature::new(), grid).rounded_to_f32()
 }
 

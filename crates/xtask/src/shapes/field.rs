@@ -35,11 +35,7 @@ pub(crate) trait Field: Sync {
         const STEP: f64 = 1e-4;
         let d = self.at(p);
         let steepness = (self.at(p + normal * STEP) - d) / STEP;
-        if steepness > 0.5 {
-            p - normal * (d / steepness)
-        } else {
-            self.project(p, 1)
-        }
+        if steepness > 0.5 { p - normal * (d / steepness) } else { self.project(p, 1) }
     }
 }
 
@@ -51,22 +47,12 @@ pub(crate) enum Part {
     /// An ellipsoid with axes along x, y, z.
     Ellipsoid { center: DVec3, radii: DVec3 },
     /// A limb with `n` ribs along it, `depth` times its radius deep.
-    Ribbed {
-        from: DVec3,
-        to: DVec3,
-        radii: [f64; 2],
-        n: u32,
-        depth: f64,
-    },
+    Ribbed { from: DVec3, to: DVec3, radii: [f64; 2], n: u32, depth: f64 },
 }
 
 /// A ball.
 pub(crate) fn ball(center: DVec3, radius: f64) -> Part {
-    Part::Limb {
-        from: center,
-        to: center,
-        radii: [radius; 2],
-    }
+    Part::Limb { from: center, to: center, radii: [radius; 2] }
 }
 
 impl Part {
@@ -81,19 +67,9 @@ impl Part {
                 let scaled = ((p - center) / radii).length();
                 let slope = ((p - center) / (radii * radii)).length();
                 // At the very center the slope vanishes; anything well below zero will do.
-                if slope < 1e-9 {
-                    -radii.min_element()
-                } else {
-                    scaled * (scaled - 1.0) / slope
-                }
+                if slope < 1e-9 { -radii.min_element() } else { scaled * (scaled - 1.0) / slope }
             }
-            Part::Ribbed {
-                from,
-                to,
-                radii,
-                n,
-                depth,
-            } => {
+            Part::Ribbed { from, to, radii, n, depth } => {
                 let t = along(p, from, to);
                 let radius = radii[0] + t * (radii[1] - radii[0]);
                 let away = p - from.lerp(to, t);
@@ -109,9 +85,9 @@ impl Part {
         let (from, to, reach) = match *self {
             Part::Limb { from, to, radii } => (from, to, DVec3::splat(radii[0].max(radii[1]))),
             Part::Ellipsoid { center, radii } => (center, center, radii),
-            Part::Ribbed {
-                from, to, radii, depth, ..
-            } => (from, to, DVec3::splat(radii[0].max(radii[1]) * (1.0 + depth))),
+            Part::Ribbed { from, to, radii, depth, .. } => {
+                (from, to, DVec3::splat(radii[0].max(radii[1]) * (1.0 + depth)))
+            }
         };
         let reach = reach + width;
         (from.min(to) - reach, from.max(to) + reach)
@@ -122,11 +98,7 @@ impl Part {
 fn along(p: DVec3, from: DVec3, to: DVec3) -> f64 {
     let axis = to - from;
     let length = axis.length_squared();
-    if length == 0.0 {
-        0.0
-    } else {
-        ((p - from).dot(axis) / length).clamp(0.0, 1.0)
-    }
+    if length == 0.0 { 0.0 } else { ((p - from).dot(axis) / length).clamp(0.0, 1.0) }
 }
 
 /// cos(n φ) of the angle around the axis, fading to zero towards it: the real part of a complex power, so that no
@@ -179,11 +151,7 @@ impl Union {
     /// looked at one by one.
     pub(crate) fn joined_to(&self, d: f64, p: DVec3, width: f64) -> f64 {
         let at_least = p.distance(p.clamp(self.low, self.high));
-        if at_least > d + width {
-            d
-        } else {
-            soft_union(d, self.at(p), width)
-        }
+        if at_least > d + width { d } else { soft_union(d, self.at(p), width) }
     }
 
     /// Adds a chain of limbs through points with radii, along a smooth curve (Catmull and Rom's).
@@ -192,25 +160,13 @@ impl Union {
         const N_LIMBS: usize = 4;
         let n = if points.len() > 2 { N_LIMBS } else { 1 };
         for piece in 0..points.len().saturating_sub(1) {
-            let around = [
-                piece.saturating_sub(1),
-                piece,
-                piece + 1,
-                (piece + 2).min(points.len() - 1),
-            ];
+            let around = [piece.saturating_sub(1), piece, piece + 1, (piece + 2).min(points.len() - 1)];
             let on_curve = |step: usize| through(around.map(|i| points[i]), step as f64 / n as f64);
             for step in 0..n {
                 let ((from, a), (to, b)) = (on_curve(step), on_curve(step + 1));
                 // Within one curve the limbs continue each other: hardly a seam, which would swell at every joint.
                 let width = if piece + step == 0 { width } else { 0.06 * a.min(b) };
-                self.join(
-                    Part::Limb {
-                        from,
-                        to,
-                        radii: [a, b],
-                    },
-                    width,
-                );
+                self.join(Part::Limb { from, to, radii: [a, b] }, width);
             }
         }
         self
@@ -220,28 +176,17 @@ impl Union {
 /// The point and radius at `t` of 0 to 1 between the second and third of four points of a curve.
 fn through([p, q, r, s]: [(DVec3, f64); 4], t: f64) -> (DVec3, f64) {
     let (t2, t3) = (t * t, t * t * t);
-    let weights = [
-        2.0 * t2 - t - t3,
-        2.0 - 5.0 * t2 + 3.0 * t3,
-        t + 4.0 * t2 - 3.0 * t3,
-        t3 - t2,
-    ]
-    .map(|w| 0.5 * w);
+    let weights = [2.0 * t2 - t - t3, 2.0 - 5.0 * t2 + 3.0 * t3, t + 4.0 * t2 - 3.0 * t3, t3 - t2].map(|w| 0.5 * w);
     let [a, b, c, d] = weights;
-    (
-        p.0 * a + q.0 * b + r.0 * c + s.0 * d,
-        p.1 * a + q.1 * b + r.1 * c + s.1 * d,
-    )
+    (p.0 * a + q.0 * b + r.0 * c + s.0 * d, p.1 * a + q.1 * b + r.1 * c + s.1 * d)
 }
 
 impl Field for Union {
     fn at(&self, p: DVec3) -> f64 {
-        self.parts
-            .iter()
-            .fold(f64::INFINITY, |d, (part, width)| match d.is_finite() {
-                true => soft_union(d, part.at(p), *width),
-                false => part.at(p),
-            })
+        self.parts.iter().fold(f64::INFINITY, |d, (part, width)| match d.is_finite() {
+            true => soft_union(d, part.at(p), *width),
+            false => part.at(p),
+        })
     }
 }
 
@@ -251,17 +196,10 @@ mod tests {
 
     #[test]
     fn parts_are_negative_inside_and_zero_on_the_surface() {
-        let limb = Part::Limb {
-            from: DVec3::ZERO,
-            to: DVec3::X,
-            radii: [0.1, 0.3],
-        };
+        let limb = Part::Limb { from: DVec3::ZERO, to: DVec3::X, radii: [0.1, 0.3] };
         assert_eq!(limb.at(DVec3::new(-0.1, 0.0, 0.0)), 0.0);
         assert!((limb.at(DVec3::new(1.0, 0.3, 0.0))).abs() < 1e-12);
-        let egg = Part::Ellipsoid {
-            center: DVec3::Y,
-            radii: DVec3::new(1.0, 2.0, 3.0),
-        };
+        let egg = Part::Ellipsoid { center: DVec3::Y, radii: DVec3::new(1.0, 2.0, 3.0) };
         assert!(egg.at(DVec3::Y) < 0.0);
         assert!(egg.at(DVec3::new(0.0, 1.0, 3.0)).abs() < 1e-12);
     }

@@ -61,11 +61,7 @@ mod tests {
         let pivot = DVec3::new(1.0, 2.0, 3.0);
         let m = turn_and_shift(pivot, DVec3::Z, 90.0, DVec3::X);
         assert!(m.transform_point3(pivot).distance(pivot + DVec3::X) < 1e-12);
-        assert!(
-            m.transform_point3(pivot + DVec3::X)
-                .distance(pivot + DVec3::X + DVec3::Y)
-                < 1e-12
-        );
+        assert!(m.transform_point3(pivot + DVec3::X).distance(pivot + DVec3::X + DVec3::Y) < 1e-12);
     }
 
     #[test]

@@ -20,9 +20,7 @@ impl Shape {
 
     /// Numbers of the vertices that satisfy a condition on their position.
     pub(crate) fn vertices_where(&self, wanted: impl Fn(DVec3) -> bool) -> Vec<u32> {
-        (0..self.positions.len() as u32)
-            .filter(|&v| wanted(self.positions[v as usize]))
-            .collect()
+        (0..self.positions.len() as u32).filter(|&v| wanted(self.positions[v as usize])).collect()
     }
 
     /// Every directed edge (from, to) with its triangle, sorted.
@@ -46,10 +44,7 @@ impl Edges {
     /// The first triangle with this edge.
     pub(crate) fn triangle(&self, from: u32, to: u32) -> Option<u32> {
         let at = self.0.partition_point(|&(edge, _)| edge < (from, to));
-        self.0
-            .get(at)
-            .filter(|(edge, _)| *edge == (from, to))
-            .map(|(_, triangle)| *triangle)
+        self.0.get(at).filter(|(edge, _)| *edge == (from, to)).map(|(_, triangle)| *triangle)
     }
 
     /// Whether two vertices are joined.
@@ -96,22 +91,14 @@ impl Shape {
     pub(crate) fn smallest_angle(&self) -> f64 {
         let angles = self.triangles.iter().flat_map(|&t| {
             let p = self.corners(t);
-            (0..3).map(move |i| {
-                (p[(i + 1) % 3] - p[i])
-                    .angle_between(p[(i + 2) % 3] - p[i])
-                    .to_degrees()
-            })
+            (0..3).map(move |i| (p[(i + 1) % 3] - p[i]).angle_between(p[(i + 2) % 3] - p[i]).to_degrees())
         });
         angles.fold(180.0, f64::min)
     }
 
     /// Six times the enclosed volume; positive when the triangles face outwards.
     pub(crate) fn volume(&self) -> f64 {
-        self.triangles
-            .iter()
-            .map(|&t| self.corners(t))
-            .map(|[a, b, c]| a.dot(b.cross(c)))
-            .sum()
+        self.triangles.iter().map(|&t| self.corners(t)).map(|[a, b, c]| a.dot(b.cross(c))).sum()
     }
 }
 

@@ -28,13 +28,7 @@ pub(crate) struct Sample {
 }
 
 /// All samples, in the order in which they are reported.
-pub(crate) const ALL: [Sample; 5] = [
-    bar::BAR,
-    bar::THIN_BAR,
-    cactus::CACTUS,
-    sheet::SHEET,
-    creature::CREATURE,
-];
+pub(crate) const ALL: [Sample; 5] = [bar::BAR, bar::THIN_BAR, cactus::CACTUS, sheet::SHEET, creature::CREATURE];
 
 #[cfg(test)]
 mod tests {
@@ -46,10 +40,7 @@ mod tests {
         let load = |sample: Sample| {
             let path = crate::assets::folder().join(format!("{}.glb", sample.name));
             let mesh = pliant_meshfile::open(&path).expect("a sample opens");
-            let shape = Shape {
-                positions: mesh.positions,
-                triangles: mesh.triangles,
-            };
+            let shape = Shape { positions: mesh.positions, triangles: mesh.triangles };
             (sample, shape)
         };
         ALL.into_iter().map(load).collect()
@@ -61,11 +52,7 @@ mod tests {
             let open = name == "sheet";
             assert_eq!(shape.flaws(open), Vec::<String>::new(), "{name}");
             let edges = shape.directed_edges();
-            let n_edges = edges
-                .0
-                .iter()
-                .filter(|((a, b), _)| a < b || edges.triangle(*b, *a).is_none())
-                .count();
+            let n_edges = edges.0.iter().filter(|((a, b), _)| a < b || edges.triangle(*b, *a).is_none()).count();
             let euler = shape.positions.len() as i64 - n_edges as i64 + shape.triangles.len() as i64;
             assert_eq!(euler, if open { 1 } else { 2 }, "{name}: vertices - edges + triangles");
             assert!(open || shape.volume() > 0.0, "{name} is inside out");
@@ -104,10 +91,7 @@ mod tests {
     fn the_creature_stands_on_the_ground_two_units_tall() {
         let (_, creature) = &samples()[4];
         let heights = || creature.positions.iter().map(|p| p.y);
-        let (low, high) = (
-            heights().fold(f64::INFINITY, f64::min),
-            heights().fold(f64::NEG_INFINITY, f64::max),
-        );
+        let (low, high) = (heights().fold(f64::INFINITY, f64::min), heights().fold(f64::NEG_INFINITY, f64::max));
         assert!(low.abs() < 0.01 && (high - 2.0).abs() < 0.05, "from {low} to {high}");
     }
 
@@ -120,19 +104,10 @@ mod tests {
                 let moved = handles.moved.iter().map(|(v, _)| *v);
                 let grouped = handles.groups.iter().flat_map(|(vertices, _)| vertices.iter().copied());
                 let mut all: Vec<u32> = handles.fixed.iter().copied().chain(moved).chain(grouped).collect();
-                assert!(
-                    !handles.fixed.is_empty() && all.len() > handles.fixed.len(),
-                    "{name}{suffix}"
-                );
-                assert!(
-                    all.iter().all(|&v| (v as usize) < shape.positions.len()),
-                    "{name}{suffix}"
-                );
+                assert!(!handles.fixed.is_empty() && all.len() > handles.fixed.len(), "{name}{suffix}");
+                assert!(all.iter().all(|&v| (v as usize) < shape.positions.len()), "{name}{suffix}");
                 all.sort_unstable();
-                assert!(
-                    all.windows(2).all(|w| w[0] < w[1]),
-                    "{name}{suffix}: a vertex is given twice"
-                );
+                assert!(all.windows(2).all(|w| w[0] < w[1]), "{name}{suffix}: a vertex is given twice");
             }
         }
     }
@@ -146,11 +121,6 @@ mod tests {
             r.iter().filter(|r| wanted.contains(r)).count() as f64 / r.len() as f64
         };
         assert_eq!(share(1..=6), 1.0);
-        assert!(
-            share(1..=2) > 0.1 && share(5..=6) > 0.4,
-            "{} soft, {} stiff",
-            share(1..=2),
-            share(5..=6)
-        );
+        assert!(share(1..=2) > 0.1 && share(5..=6) > 0.4, "{} soft, {} stiff", share(1..=2), share(5..=6));
     }
 }

@@ -52,11 +52,7 @@ fn net(field: &impl Field, grid: Grid) -> Shape {
     let place = |[i, j, k]: [usize; 3]| grid.low + DVec3::new(i as f64, j as f64, k as f64) * grid.cell;
     let mut values: Vec<f64> = vec![0.0; nodes.iter().product()];
     values.par_iter_mut().enumerate().for_each(|(i, value)| {
-        *value = field.at(place([
-            i % nodes[0],
-            i / nodes[0] % nodes[1],
-            i / (nodes[0] * nodes[1]),
-        ]));
+        *value = field.at(place([i % nodes[0], i / nodes[0] % nodes[1], i / (nodes[0] * nodes[1])]));
     });
     let mut shape = Shape::default();
     let mut vertex_of_cell = vec![u32::MAX; values.len()];
@@ -82,9 +78,7 @@ fn net(field: &impl Field, grid: Grid) -> Shape {
             };
             let [a, b, c, d] = [cell(1, 1), cell(0, 1), cell(0, 0), cell(1, 0)];
             let quad = [[a, b, c], [a, c, d]];
-            shape
-                .triangles
-                .extend(quad.map(|t| if inside { t } else { [t[0], t[2], t[1]] }));
+            shape.triangles.extend(quad.map(|t| if inside { t } else { [t[0], t[2], t[1]] }));
         }
     });
     shape
@@ -145,18 +139,10 @@ mod tests {
     fn a_ball_becomes_a_closed_even_sphere() {
         let mut field = Union::default();
         field.join(ball(DVec3::ZERO, 1.0), 0.1);
-        let grid = Grid {
-            low: DVec3::splat(-1.3),
-            high: DVec3::splat(1.3),
-            cell: 0.2,
-        };
+        let grid = Grid { low: DVec3::splat(-1.3), high: DVec3::splat(1.3), cell: 0.2 };
         let shape = polygonize(&field, grid);
         assert_eq!(shape.flaws(false), Vec::<String>::new());
-        assert_eq!(
-            shape.triangles.len(),
-            2 * shape.positions.len() - 4,
-            "a sphere by Euler's formula"
-        );
+        assert_eq!(shape.triangles.len(), 2 * shape.positions.len() - 4, "a sphere by Euler's formula");
         assert!(shape.smallest_angle() > 30.0, "{}°", shape.smallest_angle());
         // Six volumes of the ball are 8 π = 25.1; facets 0.2 long cut off about one percent.
         assert!((24.5..25.2).contains(&shape.volume()), "{}", shape.volume());

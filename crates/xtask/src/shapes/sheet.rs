@@ -20,12 +20,8 @@ const BUMPS: [(DVec2, f64, f64); 7] = [
 ];
 
 /// Two units wide in x and z, y up. The border x = −1 is held, the opposite one lifted and twisted.
-pub(crate) const SHEET: Sample = Sample {
-    name: "sheet",
-    make: surface,
-    handles: |shape| vec![("", lifted(shape))],
-    rigidity: None,
-};
+pub(crate) const SHEET: Sample =
+    Sample { name: "sheet", make: surface, handles: |shape| vec![("", lifted(shape))], rigidity: None };
 
 fn surface() -> Shape {
     let mut shape = grid();
@@ -59,9 +55,7 @@ fn grid() -> Shape {
                 // Finer towards the middle: slope 0.76 there, 1.48 at the borders.
                 t * (0.76 + 0.24 * t * t)
             };
-            shape
-                .positions
-                .push(DVec3::new(along(i, stray[0]), 0.0, along(j, stray[1])));
+            shape.positions.push(DVec3::new(along(i, stray[0]), 0.0, along(j, stray[1])));
         }
     }
     for i in 0..N - 1 {
