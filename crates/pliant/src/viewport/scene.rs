@@ -97,13 +97,13 @@ pub struct ViewScene {
     pub shading: Shading,
     /// Edges of the triangles over the surface.
     pub wireframe: bool,
-    /// A faint grid on the ground, at the bounds' floor.
+    /// A faint grid on the ground, where the floor of the bounds was when this mesh was first drawn.
     pub grid: bool,
     /// Dark or light surroundings.
     pub theme: Theme,
     /// From where.
     pub camera: Camera,
-    /// Smallest and largest corner of the current surface: fits depth and places the grid.
+    /// Smallest and largest corner of the current surface: fits depth, and places the grid when a mesh is first drawn.
     pub bounds: (Vec3, Vec3),
     /// Physical pixels in a point: sizes of dots and lines follow it.
     pub pixels_per_point: f32,

@@ -18,9 +18,11 @@ mod uniforms;
 mod tests;
 
 use super::{GpuError, ViewScene};
+use glam::Vec3;
 use layouts::Layouts;
 use marks::Marks;
 use pipelines::{Modules, Pipelines};
+use std::sync::Arc;
 use surface::Surface;
 use targets::Targets;
 use uniforms::Picture;
@@ -44,6 +46,13 @@ pub struct Renderer {
     targets: Targets,
     generation: u64,
     shown: Option<ViewScene>,
+    ground: Option<Ground>,
+}
+
+/// Where the grid lies: at the bounds a mesh had when it was first drawn, so that the ground rests while the surface moves.
+struct Ground {
+    triangles: Arc<[[u32; 3]]>,
+    bounds: (Vec3, Vec3),
 }
 
 impl Renderer {
@@ -66,6 +75,7 @@ impl Renderer {
             group,
             generation: 0,
             shown: None,
+            ground: None,
         }
     }
 
@@ -93,7 +103,8 @@ impl Renderer {
             self.upload(scene);
         }
         if resized || !unchanged {
-            self.queue.write_buffer(&self.uniforms, 0, bytemuck::bytes_of(&Picture::new(scene, size)));
+            let uniforms = Picture::new(scene, size, self.ground(scene));
+            self.queue.write_buffer(&self.uniforms, 0, bytemuck::bytes_of(&uniforms));
             self.draw(scene);
             self.shown = Some(scene.clone());
         }
@@ -120,6 +131,17 @@ impl Renderer {
         self.targets = Targets::new(&self.device, size, samples);
         self.generation += 1;
         self.shown = None;
+    }
+
+    /// Bounds the ground is placed by.
+    fn ground(&mut self, scene: &ViewScene) -> (Vec3, Vec3) {
+        match &self.ground {
+            Some(ground) if Arc::ptr_eq(&ground.triangles, &scene.triangles) => ground.bounds,
+            _ => {
+                self.ground = Some(Ground { triangles: scene.triangles.clone(), bounds: scene.bounds });
+                scene.bounds
+            }
+        }
     }
 
     /// Brings what differs from the last picture to the device.

@@ -102,3 +102,30 @@ fn meshes_beyond_the_device_leave_the_background() {
     assert_eq!(headless.take_error(), None, "the device complained");
     assert_eq!(n_dark(&picture), 0, "only the light background");
 }
+
+#[test]
+fn the_ground_rests_while_the_surface_moves() {
+    let headless = Headless::new().unwrap_or_else(|error| panic!("{error}"));
+    let mut renderer = Renderer::new(&headless.device, &headless.queue, 1);
+    let mut scene = ViewScene { grid: true, ..sheet() };
+    scene.camera = Camera::framing(scene.bounds.0, scene.bounds.1);
+    let mut ground_with = |scene: &ViewScene| {
+        renderer.render(scene, SIZE);
+        // The lower corners show ground only.
+        renderer
+            .read_pixels()
+            .enumerate_pixels()
+            .filter(|(x, y, _)| *y > 80 && *x < 30)
+            .map(|(_, _, px)| px.0)
+            .collect::<Vec<_>>()
+    };
+    let before = ground_with(&scene);
+    assert!(ground_with(&ViewScene { grid: false, ..scene.clone() }) != before, "there are lines to see");
+    let positions = scene.frame.positions.iter().map(|p| Vec3::new(p.x, p.y.max(-0.5), p.z)).collect();
+    let moved = ViewScene {
+        frame: Arc::new(SurfaceFrame { positions, normals: scene.frame.normals.clone() }),
+        bounds: (Vec3::new(-1.0, -0.5, 0.0), scene.bounds.1),
+        ..scene.clone()
+    };
+    assert!(ground_with(&moved) == before, "the ground moved with the surface");
+}

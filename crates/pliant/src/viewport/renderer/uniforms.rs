@@ -48,8 +48,8 @@ struct Light {
 }
 
 impl Picture {
-    /// The uniforms of a scene drawn at this size in physical pixels.
-    pub(super) fn new(scene: &ViewScene, size_px: [u32; 2]) -> Picture {
+    /// The uniforms of a scene drawn at this size in physical pixels, with the ground under the box `ground`.
+    pub(super) fn new(scene: &ViewScene, size_px: [u32; 2], ground: (Vec3, Vec3)) -> Picture {
         let camera = &scene.camera;
         let size = Vec2::new(size_px[0] as f32, size_px[1] as f32);
         let density = if scene.pixels_per_point > 0.0 { scene.pixels_per_point } else { 1.0 };
@@ -58,10 +58,11 @@ impl Picture {
         let from_unit = Mat4::from_scale(Vec3::splat(camera.distance));
         let flag = |on: bool| if on { 1.0 } else { 0.0 };
         let has_normals = scene.frame.normals.len() == scene.frame.positions.len();
-        let (grid, grid_extent) = grid(scene.bounds);
+        let reach = (scene.bounds.0.min(ground.0), scene.bounds.1.max(ground.1));
+        let (grid, grid_extent) = grid(ground);
         Picture {
             view_from_world: (to_unit * camera.view_from_world()).to_cols_array(),
-            clip_from_view: (camera.clip_from_view(size, scene.bounds) * from_unit).to_cols_array(),
+            clip_from_view: (camera.clip_from_view(size, reach) * from_unit).to_cols_array(),
             viewport: [size.x, size.y, density, camera.focal_px(size)],
             modes: [
                 flag(camera.projection == Projection::Orthographic),
