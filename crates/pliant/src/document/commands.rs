@@ -1,0 +1,277 @@
+//! The wishes that change a scene.
+
+use std::sync::Arc;
+
+use glam::{DAffine3, DVec3};
+use pliant_solver::{LooseComponents, Rigidity, RigidityError, VertexId, Weights};
+
+use super::{Group, GroupId, GroupKind, Scene, Selection};
+
+/// How newly selected vertices join those already selected.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SelectMode {
+    /// Only the new ones.
+    Replace,
+    /// Both.
+    Add,
+    /// The old ones without the new ones.
+    Remove,
+}
+
+/// A wish. Tools, menus, keys and scripts all speak this language.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Command {
+    /// Opens a step that lasts until `Commit` or `Cancel`: a drag, a stroke.
+    Begin(&'static str),
+    /// Closes the open step. One that changed nothing leaves no trace.
+    Commit,
+    /// Takes back the open step.
+    Cancel,
+    /// Holds vertices where they are now; vertices of other groups change over.
+    Hold {
+        /// Handle or anchor.
+        kind: GroupKind,
+        /// At least one.
+        vertices: Vec<VertexId>,
+    },
+    /// Lets vertices of some groups go.
+    Release(Vec<GroupId>),
+    /// Gives a group a new motion (of its base positions, world space).
+    Move {
+        /// Which.
+        group: GroupId,
+        /// Must be finite.
+        motion: DAffine3,
+    },
+    /// Puts a group back to the rest positions of its vertices.
+    ReturnToRest(GroupId),
+    /// Makes a handle an anchor or back.
+    SetKind(GroupId, GroupKind),
+    /// Gives a group another name.
+    Rename(GroupId, String),
+    /// Shows the gizmo on a group, or on none. Not a step of the history.
+    Activate(Option<GroupId>),
+    /// Sets r of some vertices.
+    Paint {
+        /// Vertices and their new r ≥ 1.
+        values: Vec<(VertexId, u16)>,
+    },
+    /// Sets r of some vertices to one value.
+    Fill {
+        /// Which.
+        vertices: Vec<VertexId>,
+        /// r ≥ 1.
+        r: u16,
+    },
+    /// Sets r of every vertex.
+    FillAll(u16),
+    /// Changes the selection.
+    Select(Vec<VertexId>, SelectMode),
+    /// Changes the edge weights of the energy.
+    SetWeights(Weights),
+    /// Changes what parts without handles do.
+    SetLoose(LooseComponents),
+    /// Every group back to rest, and the surface with them.
+    ResetPose,
+}
+
+/// Why a command was refused. The scene is as it was.
+#[derive(Debug, PartialEq, thiserror::Error)]
+pub enum CommandError {
+    /// The vertex does not exist.
+    #[error("vertex {vertex} does not exist: the surface has {n_vertices}")]
+    NoSuchVertex {
+        /// Asked for.
+        vertex: u32,
+        /// There are.
+        n_vertices: usize,
+    },
+    /// The group does not exist (any more).
+    #[error("handle group {0} does not exist any more")]
+    NoSuchGroup(u32),
+    /// Nothing to hold.
+    #[error("no vertex to hold: select some first")]
+    NothingToHold,
+    /// A motion with NaN or infinity.
+    #[error("a handle cannot move to a position that is not finite")]
+    NotFinite,
+    /// r out of range.
+    #[error("rigidity must be between 1 and {max}, not {r}")]
+    BadRigidity {
+        /// Asked for.
+        r: u16,
+        /// Largest allowed.
+        max: u16,
+    },
+    /// r out of range, found by the solver.
+    #[error("{0}")]
+    Rigidity(String),
+}
+
+impl From<RigidityError> for CommandError {
+    fn from(error: RigidityError) -> CommandError {
+        CommandError::Rigidity(error.to_string())
+    }
+}
+
+impl Command {
+    /// Name of the step in the history.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Command::Begin(name) => name,
+            Command::Commit | Command::Cancel | Command::Activate(_) => "",
+            Command::Hold { kind: GroupKind::Handle, .. } => "Place handle",
+            Command::Hold { kind: GroupKind::Anchor, .. } => "Place anchor",
+            Command::Release(_) => "Delete handle",
+            Command::Move { .. } => "Move handle",
+            Command::ReturnToRest(_) => "Return handle to rest",
+            Command::SetKind(..) => "Change handle kind",
+            Command::Rename(..) => "Rename handle",
+            Command::Paint { .. } => "Paint rigidity",
+            Command::Fill { .. } => "Fill rigidity",
+            Command::FillAll(_) => "Set rigidity everywhere",
+            Command::Select(..) => "Select",
+            Command::SetWeights(_) => "Change weights",
+            Command::SetLoose(_) => "Change loose parts",
+            Command::ResetPose => "Reset pose",
+        }
+    }
+}
+
+/// Where commands find what is not in the scene.
+pub(super) struct Surroundings<'a> {
+    /// Current world positions of all surface points.
+    pub now: &'a [DVec3],
+    /// Rest positions of all surface points.
+    pub rest: &'a [DVec3],
+    /// The next unused group id; a command that uses it counts it up.
+    pub next_group: &'a mut u32,
+}
+
+/// The scene after `command`. Gesture commands do not reach this.
+pub(super) fn changed(scene: &Scene, command: Command, around: Surroundings<'_>) -> Result<Scene, CommandError> {
+    let mut next = scene.clone();
+    match command {
+        Command::Begin(_) | Command::Commit | Command::Cancel => {}
+        Command::Hold { kind, vertices } => hold(&mut next, kind, vertices, around)?,
+        Command::Release(ids) => {
+            next.groups = scene.groups.iter().filter(|group| !ids.contains(&group.id)).cloned().collect();
+            next.active = next.active.filter(|id| !ids.contains(id));
+        }
+        Command::Move { group, motion } => {
+            if !motion.is_finite() {
+                return Err(CommandError::NotFinite);
+            }
+            edit_group(&mut next, group, |group| group.motion = motion)?;
+        }
+        Command::ReturnToRest(id) => edit_group(&mut next, id, |group| to_rest(group, around.rest))?,
+        Command::SetKind(id, kind) => edit_group(&mut next, id, |group| group.kind = kind)?,
+        Command::Rename(id, name) => edit_group(&mut next, id, |group| group.name = name)?,
+        Command::Activate(id) => next.active = id.filter(|&id| scene.group(id).is_some()),
+        Command::Paint { values } => paint(&mut next, &values)?,
+        Command::Fill { vertices, r } => {
+            let values: Vec<_> = vertices.into_iter().map(|v| (v, r)).collect();
+            paint(&mut next, &values)?;
+        }
+        Command::FillAll(r) => {
+            check_rigidity(r)?;
+            next.rigidity = Rigidity::uniform(around.rest.len(), r);
+        }
+        Command::Select(vertices, mode) => {
+            check_vertices(&vertices, around.rest.len())?;
+            next.selection = combine(&scene.selection, vertices, mode);
+        }
+        Command::SetWeights(weights) => next.weights = weights,
+        Command::SetLoose(loose) => next.loose = loose,
+        Command::ResetPose => {
+            let mut groups = scene.groups.to_vec();
+            groups.iter_mut().for_each(|group| to_rest(group, around.rest));
+            next.groups = groups.into();
+        }
+    }
+    Ok(next)
+}
+
+fn hold(
+    scene: &mut Scene,
+    kind: GroupKind,
+    vertices: Vec<VertexId>,
+    around: Surroundings<'_>,
+) -> Result<(), CommandError> {
+    check_vertices(&vertices, around.rest.len())?;
+    let held = Selection::new(vertices);
+    if held.is_empty() {
+        return Err(CommandError::NothingToHold);
+    }
+    let mut groups: Vec<Group> = scene.groups.iter().filter_map(|group| without(group, &held)).collect();
+    let id = GroupId(*around.next_group);
+    *around.next_group += 1;
+    let base = held.vertices().iter().map(|v| around.now[v.index()]).collect();
+    let name = match kind {
+        GroupKind::Handle => format!("Handle {}", id.0),
+        GroupKind::Anchor => format!("Anchor {}", id.0),
+    };
+    groups.push(Group { id, name, kind, vertices: held.vertices().into(), base, motion: DAffine3::IDENTITY });
+    scene.groups = groups.into();
+    scene.active = Some(id);
+    Ok(())
+}
+
+/// `group` without the vertices in `taken`, or nothing if none is left.
+fn without(group: &Group, taken: &Selection) -> Option<Group> {
+    if !group.vertices.iter().any(|&v| taken.contains(v)) {
+        return Some(group.clone());
+    }
+    let kept = || group.vertices.iter().zip(group.base.iter()).filter(|&(&v, _)| !taken.contains(v));
+    let vertices: Arc<[VertexId]> = kept().map(|(&v, _)| v).collect();
+    let base = kept().map(|(_, &p)| p).collect();
+    (!vertices.is_empty()).then(|| Group { vertices, base, ..group.clone() })
+}
+
+fn to_rest(group: &mut Group, rest: &[DVec3]) {
+    group.base = group.vertices.iter().map(|v| rest[v.index()]).collect();
+    group.motion = DAffine3::IDENTITY;
+}
+
+fn edit_group(scene: &mut Scene, id: GroupId, edit: impl FnOnce(&mut Group)) -> Result<(), CommandError> {
+    let mut groups = scene.groups.to_vec();
+    let group = groups.iter_mut().find(|group| group.id == id).ok_or(CommandError::NoSuchGroup(id.0))?;
+    edit(group);
+    scene.groups = groups.into();
+    Ok(())
+}
+
+fn paint(scene: &mut Scene, values: &[(VertexId, u16)]) -> Result<(), CommandError> {
+    let mut r = scene.rigidity.as_slice().to_vec();
+    let n_vertices = r.len();
+    for &(v, value) in values {
+        check_rigidity(value)?;
+        *r.get_mut(v.index()).ok_or(CommandError::NoSuchVertex { vertex: v.0, n_vertices })? = value;
+    }
+    if r != scene.rigidity.as_slice() {
+        scene.rigidity = Rigidity::new(r)?;
+    }
+    Ok(())
+}
+
+fn check_rigidity(r: u16) -> Result<(), CommandError> {
+    if (1..=Rigidity::MAX).contains(&r) { Ok(()) } else { Err(CommandError::BadRigidity { r, max: Rigidity::MAX }) }
+}
+
+fn check_vertices(vertices: &[VertexId], n_vertices: usize) -> Result<(), CommandError> {
+    match vertices.iter().find(|v| v.index() >= n_vertices) {
+        Some(v) => Err(CommandError::NoSuchVertex { vertex: v.0, n_vertices }),
+        None => Ok(()),
+    }
+}
+
+fn combine(old: &Selection, new: Vec<VertexId>, mode: SelectMode) -> Selection {
+    match mode {
+        SelectMode::Replace => Selection::new(new),
+        SelectMode::Add => Selection::new(old.vertices().iter().copied().chain(new).collect()),
+        SelectMode::Remove => {
+            let gone = Selection::new(new);
+            Selection::new(old.vertices().iter().copied().filter(|&v| !gone.contains(v)).collect())
+        }
+    }
+}

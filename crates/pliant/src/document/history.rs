@@ -1,0 +1,142 @@
+//! Undo and redo: whole snapshots, which share what did not change, capped by bytes.
+
+use super::{Pose, Scene};
+
+/// What undo brings back: the scene and the pose it had.
+#[derive(Clone, Debug)]
+pub struct Snapshot {
+    /// The user's part.
+    pub scene: Scene,
+    /// The solver's part.
+    pub pose: Pose,
+}
+
+#[derive(Debug)]
+struct Step {
+    name: &'static str,
+    snapshot: Snapshot,
+    bytes: usize,
+}
+
+/// Two stacks of steps. The newest undo step holds the state *before* the newest change.
+#[derive(Debug)]
+pub struct History {
+    undo: Vec<Step>,
+    redo: Vec<Step>,
+    budget_bytes: usize,
+}
+
+/// Oldest steps are forgotten beyond this. By eye: 800 whole poses of a 12k mesh, 10 of a million vertices.
+const BUDGET_BYTES: usize = 256 << 20;
+
+impl Default for History {
+    fn default() -> History {
+        History { undo: Vec::new(), redo: Vec::new(), budget_bytes: BUDGET_BYTES }
+    }
+}
+
+impl History {
+    /// Notes that `name` is about to turn (or has just turned) `before` into something else.
+    pub fn push(&mut self, name: &'static str, before: Snapshot) {
+        self.redo.clear();
+        let bytes = self.cost(&before);
+        self.undo.push(Step { name, snapshot: before, bytes });
+        let mut total: usize = self.undo.iter().map(|step| step.bytes).sum();
+        let mut forgotten = 0;
+        while total > self.budget_bytes && forgotten + 1 < self.undo.len() {
+            total -= self.undo[forgotten].bytes;
+            forgotten += 1;
+        }
+        self.undo.drain(..forgotten);
+    }
+
+    /// Takes the state to go back to, keeping `now` for redo.
+    pub fn undo(&mut self, now: Snapshot) -> Option<(&'static str, Snapshot)> {
+        let step = self.undo.pop()?;
+        self.redo.push(Step { name: step.name, snapshot: now, bytes: step.bytes });
+        Some((step.name, step.snapshot))
+    }
+
+    /// Takes the state to go forward to, keeping `now` for undo.
+    pub fn redo(&mut self, now: Snapshot) -> Option<(&'static str, Snapshot)> {
+        let step = self.redo.pop()?;
+        self.undo.push(Step { name: step.name, snapshot: now, bytes: step.bytes });
+        Some((step.name, step.snapshot))
+    }
+
+    /// Name of the change that undo would take back.
+    pub fn undo_name(&self) -> Option<&'static str> {
+        self.undo.last().map(|step| step.name)
+    }
+
+    /// Name of the change that redo would make again.
+    pub fn redo_name(&self) -> Option<&'static str> {
+        self.redo.last().map(|step| step.name)
+    }
+
+    /// Number of changes that can be taken back.
+    pub fn len(&self) -> usize {
+        self.undo.len()
+    }
+
+    /// Whether there is nothing to take back.
+    pub fn is_empty(&self) -> bool {
+        self.undo.is_empty()
+    }
+
+    fn cost(&self, snapshot: &Snapshot) -> usize {
+        let pose = size_of_val(&*snapshot.pose.positions);
+        match self.undo.last() {
+            None => pose,
+            Some(last) => {
+                let shared = std::sync::Arc::ptr_eq(&last.snapshot.pose.positions, &snapshot.pose.positions);
+                snapshot.scene.bytes_beyond(&last.snapshot.scene) + if shared { 0 } else { pose }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::document::Selection;
+    use pliant_solver::{LooseComponents, Rigidity, Weights};
+
+    fn snapshot(x: f64) -> Snapshot {
+        let scene = Scene {
+            rigidity: Rigidity::uniform(100, 1),
+            groups: [].into(),
+            selection: Selection::default(),
+            active: None,
+            weights: Weights::default(),
+            loose: LooseComponents::default(),
+        };
+        Snapshot { scene, pose: Pose { positions: vec![glam::DVec3::splat(x); 100].into() } }
+    }
+
+    #[test]
+    fn the_oldest_steps_are_forgotten_beyond_the_budget_and_the_newest_never() {
+        let mut history = History { budget_bytes: 10_000, ..History::default() };
+        for k in 0..20 {
+            history.push("step", snapshot(f64::from(k)));
+        }
+        // 2400 bytes of positions and a little more in each.
+        assert!((2..=4).contains(&history.len()), "{} steps were kept", history.len());
+        let (_, newest) = history.undo(snapshot(20.0)).expect("a step");
+        assert_eq!(newest.pose.positions[0].x, 19.0);
+        let mut tiny = History { budget_bytes: 1, ..History::default() };
+        tiny.push("step", snapshot(1.0));
+        tiny.push("step", snapshot(2.0));
+        assert_eq!(tiny.len(), 1, "the newest step must stay");
+    }
+
+    #[test]
+    fn a_new_step_ends_the_redo_of_older_ones() {
+        let mut history = History::default();
+        history.push("a", snapshot(1.0));
+        assert_eq!(history.undo(snapshot(2.0)).map(|(name, _)| name), Some("a"));
+        assert_eq!(history.redo_name(), Some("a"));
+        history.push("b", snapshot(1.0));
+        assert_eq!(history.redo_name(), None);
+    }
+}

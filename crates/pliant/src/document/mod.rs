@@ -1,0 +1,20 @@
+//! The truth about what is being edited, without a window: the opened [`Model`], the [`Scene`] laid over it, the
+//! current [`Pose`], and the history of both.
+//!
+//! Everything that changes the scene is a [`Command`], applied by [`Document::apply`]. The solver's answers come in
+//! through [`Document::accept`] and never make an undo step.
+
+mod commands;
+mod fill;
+mod history;
+mod model;
+mod scene;
+
+mod state;
+
+pub use commands::{Command, CommandError, SelectMode};
+pub use fill::region_of_equal_rigidity;
+pub use history::{History, Snapshot};
+pub use model::{Model, ModelError};
+pub use scene::{Group, GroupId, GroupKind, Scene, Selection};
+pub use state::{Document, Pose};

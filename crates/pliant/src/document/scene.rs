@@ -1,0 +1,151 @@
+//! What the user has laid over the model: rigidity, handles and anchors, a selection.
+
+use std::sync::Arc;
+
+use glam::{DAffine3, DVec3};
+use pliant_solver::{LooseComponents, Rigidity, VertexId, Weights};
+
+use super::Model;
+
+/// Names a group for as long as the document lives; never used twice.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct GroupId(pub u32);
+
+/// What a group of held vertices is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum GroupKind {
+    /// Moved by the user.
+    Handle,
+    /// Holds the surface where it is.
+    Anchor,
+}
+
+/// Vertices whose positions are prescribed together.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Group {
+    /// Its lasting name for commands.
+    pub id: GroupId,
+    /// Its name for people.
+    pub name: String,
+    /// Handle or anchor.
+    pub kind: GroupKind,
+    /// Held surface points, sorted; no vertex is in two groups.
+    pub vertices: Arc<[VertexId]>,
+    /// World positions of `vertices` when the group was placed.
+    pub base: Arc<[DVec3]>,
+    /// Motion of `base` since then, world space.
+    pub motion: DAffine3,
+}
+
+impl Group {
+    /// World position that the solver must give to each of `vertices`.
+    pub fn targets(&self) -> impl Iterator<Item = DVec3> + '_ {
+        self.base.iter().map(|&p| if self.motion == DAffine3::IDENTITY { p } else { self.motion.transform_point3(p) })
+    }
+
+    /// Mean of the base positions: the pivot of rotations and scalings.
+    pub fn base_center(&self) -> DVec3 {
+        self.base.iter().sum::<DVec3>() / self.base.len().max(1) as f64
+    }
+
+    /// Where the middle of the group is now, world space.
+    pub fn center(&self) -> DVec3 {
+        self.motion.transform_point3(self.base_center())
+    }
+}
+
+/// A set of surface points, sorted. Cheap to clone.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Selection(Arc<[VertexId]>);
+
+impl Selection {
+    /// Sorts and removes duplicates.
+    pub fn new(mut vertices: Vec<VertexId>) -> Selection {
+        vertices.sort_unstable();
+        vertices.dedup();
+        Selection(vertices.into())
+    }
+
+    /// The selected points, sorted.
+    pub fn vertices(&self) -> &[VertexId] {
+        &self.0
+    }
+
+    /// Whether `v` is selected.
+    pub fn contains(&self, v: VertexId) -> bool {
+        self.0.binary_search(&v).is_ok()
+    }
+
+    /// Whether nothing is selected.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+}
+
+/// Everything the user can change and undo. Cheap to clone: Arcs and small values.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene {
+    /// r of every surface point.
+    pub rigidity: Rigidity,
+    /// Handles and anchors in the order of their placing.
+    pub groups: Arc<[Group]>,
+    /// Selected surface points.
+    pub selection: Selection,
+    /// The group whose gizmo is shown.
+    pub active: Option<GroupId>,
+    /// Edge weights of the energy.
+    pub weights: Weights,
+    /// What parts without handles do.
+    pub loose: LooseComponents,
+}
+
+impl Scene {
+    /// The scene of a freshly opened model: its own r, nothing held.
+    pub fn new(model: &Model) -> Scene {
+        Scene {
+            rigidity: model.rigidity.clone(),
+            groups: Arc::new([]),
+            selection: Selection::default(),
+            active: None,
+            weights: Weights::default(),
+            loose: LooseComponents::default(),
+        }
+    }
+
+    /// The group of that name, if it still exists.
+    pub fn group(&self, id: GroupId) -> Option<&Group> {
+        self.groups.iter().find(|group| group.id == id)
+    }
+
+    /// The active group, if any.
+    pub fn active_group(&self) -> Option<&Group> {
+        self.group(self.active?)
+    }
+
+    /// The group that holds `v`, if any. O(groups · log vertices).
+    pub fn group_holding(&self, v: VertexId) -> Option<&Group> {
+        self.groups.iter().find(|group| group.vertices.binary_search(&v).is_ok())
+    }
+
+    /// Held vertices and the world positions they must take, group by group.
+    pub fn held(&self) -> (Vec<VertexId>, Vec<DVec3>) {
+        let vertices = self.groups.iter().flat_map(|group| group.vertices.iter().copied()).collect();
+        let targets = self.groups.iter().flat_map(Group::targets).collect();
+        (vertices, targets)
+    }
+
+    /// Approximate size of what this scene does not share with `other`, in bytes.
+    pub(super) fn bytes_beyond(&self, other: &Scene) -> usize {
+        let mut bytes = size_of::<Scene>();
+        if !std::ptr::eq(self.rigidity.as_slice(), other.rigidity.as_slice()) {
+            bytes += size_of_val(self.rigidity.as_slice());
+        }
+        if !Arc::ptr_eq(&self.groups, &other.groups) {
+            bytes += size_of_val(&*self.groups);
+        }
+        if !std::ptr::eq(self.selection.vertices(), other.selection.vertices()) {
+            bytes += size_of_val(self.selection.vertices());
+        }
+        bytes
+    }
+}

@@ -1,0 +1,261 @@
+//! The window: eframe's side of the editor.
+
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+use egui::{CentralPanel, Frame, Margin, Panel};
+
+use super::actions::WindowAction;
+use super::keyboard::Keyboard;
+use super::panels::{self, Dialog, DialogOutcome, Loss};
+use super::viewport_panel::ViewportPanel;
+use super::{Action, Job, JobEvent, NoticeKind, Sample, Session, theme};
+
+/// Why the window could not be shown.
+#[derive(Debug, thiserror::Error)]
+pub enum EditorError {
+    /// The window system or the graphics adapter refused.
+    #[error("no window could be opened: {0}")]
+    NoWindow(String),
+    /// No graphics device.
+    #[error("no graphics adapter was found")]
+    NoAdapter,
+    /// No thread for the solver.
+    #[error("the solver thread could not be started: {0}")]
+    NoThread(#[from] std::io::Error),
+}
+
+/// The application that eframe runs.
+pub struct EditorApp {
+    session: Session,
+    viewport: ViewportPanel,
+    dialog: Dialog,
+    keyboard: Keyboard,
+    title: String,
+    /// The user has agreed to lose changes by closing.
+    may_close: bool,
+    last_frame: FrameWork,
+}
+
+/// Time that the last frame took in the window's own thread.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct FrameWork {
+    /// All of it.
+    pub ui: Duration,
+    /// The part spent in the renderer of the viewport.
+    pub drawing: Duration,
+}
+
+impl EditorApp {
+    /// Builds the application inside eframe. Opens the first of `files`, or the start sample.
+    pub fn new(cc: &eframe::CreationContext<'_>, files: Vec<PathBuf>) -> Result<EditorApp, EditorError> {
+        let render_state = cc.wgpu_render_state.as_ref().ok_or(EditorError::NoAdapter)?;
+        let ctx = cc.egui_ctx.clone();
+        let mut session = Session::new(move || ctx.request_repaint())?;
+        theme::apply(&cc.egui_ctx, session.look.theme);
+        let mut files = files.into_iter();
+        session.start(match files.next() {
+            Some(path) => Job::Open(path),
+            None => Job::OpenSample(Sample::Creature),
+        });
+        if files.next().is_some() {
+            session.notices.push(NoticeKind::Warning, "Only the first of the files is opened: one mesh at a time");
+        }
+        Ok(EditorApp {
+            session,
+            viewport: ViewportPanel::new(render_state),
+            dialog: Dialog::None,
+            keyboard: Keyboard::default(),
+            title: String::new(),
+            may_close: false,
+            last_frame: FrameWork::default(),
+        })
+    }
+
+    /// The editor behind the window.
+    pub fn session(&mut self) -> &mut Session {
+        &mut self.session
+    }
+
+    /// What the last frame cost.
+    pub fn last_frame_work(&self) -> FrameWork {
+        self.last_frame
+    }
+
+    fn perform(&mut self, action: Action, ctx: &egui::Context) {
+        let theme_before = self.session.look.theme;
+        match action.perform(&mut self.session) {
+            None => {}
+            Some(WindowAction::Open) => self.dialog = Dialog::Open { path: String::new() },
+            Some(WindowAction::SaveAs) => self.ask_where_to_save(),
+            Some(WindowAction::Save) => self.save(),
+            Some(WindowAction::Quit) => ctx.send_viewport_cmd(egui::ViewportCommand::Close),
+            Some(WindowAction::Keys) => self.dialog = Dialog::Keys,
+        }
+        if self.session.look.theme != theme_before {
+            theme::apply(ctx, self.session.look.theme);
+        }
+    }
+
+    fn save(&mut self) {
+        match self.session.open().and_then(|open| open.save_path.clone()) {
+            Some(path) => self.save_to(path),
+            None => self.ask_where_to_save(),
+        }
+    }
+
+    fn ask_where_to_save(&mut self) {
+        let Some(open) = self.session.open() else {
+            return;
+        };
+        let proposed = open.save_path.clone().unwrap_or_else(|| {
+            let model = open.document.model();
+            let extension = model
+                .file
+                .path
+                .as_deref()
+                .and_then(|path| path.extension())
+                .map_or_else(|| "glb".into(), |extension| extension.to_string_lossy().to_lowercase());
+            let name = format!("{}-bent.{extension}", model.name);
+            match model.file.path.as_deref().and_then(|path| path.parent()) {
+                Some(folder) => folder.join(name),
+                None => PathBuf::from(name),
+            }
+        });
+        self.dialog = Dialog::Save { path: proposed.display().to_string() };
+    }
+
+    fn save_to(&mut self, to: PathBuf) {
+        if let Some(document) = self.session.document() {
+            let job = Job::Save { model: document.model().clone(), snapshot: document.snapshot(), to };
+            self.session.start(job);
+        }
+    }
+
+    /// Does what would lose unsaved changes, or asks first.
+    fn lose(&mut self, loss: Loss, ctx: &egui::Context) {
+        if self.session.document().is_some_and(|document| document.is_modified()) {
+            self.dialog = Dialog::Unsaved(loss);
+        } else {
+            self.proceed(loss, ctx);
+        }
+    }
+
+    fn proceed(&mut self, loss: Loss, ctx: &egui::Context) {
+        match loss {
+            Loss::Open(path) => self.session.start(Job::Open(path)),
+            Loss::OpenSample(sample) => self.session.start(Job::OpenSample(sample)),
+            Loss::Close => {
+                self.may_close = true;
+                ctx.send_viewport_cmd(egui::ViewportCommand::Close);
+            }
+        }
+    }
+
+    fn after_dialog(&mut self, outcome: DialogOutcome, ctx: &egui::Context) {
+        match outcome {
+            DialogOutcome::Open(path) => self.lose(Loss::Open(path), ctx),
+            DialogOutcome::OpenSample(sample) => self.lose(Loss::OpenSample(sample), ctx),
+            DialogOutcome::Save(path) => self.save_to(path),
+            DialogOutcome::Lose(loss) => self.proceed(loss, ctx),
+            DialogOutcome::SaveFirst => self.save(),
+        }
+    }
+
+    fn name_window(&mut self, ctx: &egui::Context) {
+        let title = match self.session.document() {
+            Some(document) => {
+                let mark = if document.is_modified() { "• " } else { "" };
+                format!("{mark}{} – Pliant", document.model().name)
+            }
+            None => "Pliant".into(),
+        };
+        if title != self.title {
+            ctx.send_viewport_cmd(egui::ViewportCommand::Title(title.clone()));
+            self.title = title;
+        }
+    }
+}
+
+impl eframe::App for EditorApp {
+    fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
+        for event in self.session.poll() {
+            match (event, &mut self.dialog) {
+                (JobEvent::ChosenToOpen(path), _) => {
+                    self.dialog = Dialog::None;
+                    self.lose(Loss::Open(path), ctx);
+                }
+                (JobEvent::ChosenToSave(chosen), Dialog::Save { path }) => *path = chosen.display().to_string(),
+                (JobEvent::ChosenToSave(path), _) => self.save_to(path),
+                _ => {}
+            }
+        }
+        let dropped: Vec<PathBuf> =
+            ctx.input(|input| input.raw.dropped_files.iter().map(|file| file.path().to_owned()).collect());
+        if let Some(path) = dropped.into_iter().next() {
+            self.lose(Loss::Open(path), ctx);
+        }
+        if ctx.input(|input| input.viewport().close_requested())
+            && !self.may_close
+            && self.session.document().is_some_and(|document| document.is_modified())
+        {
+            ctx.send_viewport_cmd(egui::ViewportCommand::CancelClose);
+            self.dialog = Dialog::Unsaved(Loss::Close);
+        }
+        self.name_window(ctx);
+    }
+
+    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+        let begun = Instant::now();
+        let ctx = ui.ctx().clone();
+        let mut chosen = Vec::new();
+        if self.dialog == Dialog::None {
+            chosen.extend(self.keyboard.take(&ctx, &mut self.session));
+        }
+        let theme_before = self.session.look.theme;
+        let bar = Frame::new().fill(ui.visuals().panel_fill).inner_margin(Margin::symmetric(8, 4));
+        Panel::top("menu").frame(bar).show(ui, |ui| chosen.extend(panels::menu(ui, &mut self.session)));
+        Panel::bottom("status").frame(bar).exact_size(58.0).show(ui, |ui| {
+            panels::status(ui, &mut self.session, self.viewport.is_software);
+        });
+        let side = Frame::new().fill(ui.visuals().panel_fill).inner_margin(Margin::same(6));
+        Panel::left("tools").frame(side).exact_size(72.0).resizable(false).show(ui, |ui| {
+            panels::rail(ui, &mut self.session);
+        });
+        let wide = Frame::new().fill(ui.visuals().panel_fill).inner_margin(Margin::same(10));
+        Panel::right("inspector").frame(wide).default_size(288.0).size_range(240.0..=420.0).show(ui, |ui| {
+            chosen.extend(panels::inspector(ui, &mut self.session));
+        });
+        CentralPanel::no_frame().show(ui, |ui| {
+            let rect = ui.available_rect_before_wrap();
+            self.viewport.show(ui, &mut self.session);
+            panels::legend(ui, rect, &mut self.session);
+            panels::welcome(ui, rect, &mut self.session);
+            panels::notices(ui, rect, &mut self.session);
+        });
+        if self.session.look.theme != theme_before {
+            theme::apply(&ctx, self.session.look.theme);
+        }
+        for action in chosen {
+            self.perform(action, &ctx);
+        }
+        if let Some(outcome) = self.dialog.show(&ctx, &mut self.session) {
+            self.after_dialog(outcome, &ctx);
+        }
+        self.last_frame = FrameWork { ui: begun.elapsed(), drawing: self.viewport.drawing };
+    }
+}
+
+/// Opens the window and runs until it is closed.
+pub fn run(files: Vec<PathBuf>) -> Result<(), EditorError> {
+    let options = eframe::NativeOptions {
+        viewport: egui::ViewportBuilder::default()
+            .with_title("Pliant")
+            .with_app_id("pliant")
+            .with_inner_size([1280.0, 800.0])
+            .with_min_inner_size([720.0, 480.0]),
+        ..Default::default()
+    };
+    eframe::run_native("pliant", options, Box::new(|cc| Ok(Box::new(EditorApp::new(cc, files)?))))
+        .map_err(|error| EditorError::NoWindow(error.to_string()))
+}

@@ -1,0 +1,194 @@
+//! Work that takes longer than a frame, each piece on a thread of its own.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender, channel};
+
+use pliant_geometry::VertexNormals;
+
+use super::Sample;
+use crate::document::{Model, Snapshot};
+use crate::tools::Surface;
+use crate::viewport::SurfaceFrame;
+
+/// What can be done in the background.
+pub enum Job {
+    /// Reads a mesh file.
+    Open(PathBuf),
+    /// Reads a mesh of the program's own.
+    OpenSample(Sample),
+    /// Writes the deformed mesh.
+    Save {
+        /// What was opened.
+        model: Arc<Model>,
+        /// What to write.
+        snapshot: Snapshot,
+        /// Where.
+        to: PathBuf,
+    },
+    /// Asks the platform's dialog for a file to open.
+    BrowseOpen,
+    /// Asks the platform's dialog for a file to write.
+    BrowseSave {
+        /// Proposed name.
+        name: String,
+    },
+}
+
+/// A model with what the window needs to show and pick it.
+pub struct Opened {
+    /// The model.
+    pub model: Arc<Model>,
+    /// Picking.
+    pub surface: Surface,
+    /// Normals of later poses.
+    pub normals: VertexNormals,
+}
+
+/// What a job came to.
+pub enum JobEvent {
+    /// A mesh is ready.
+    Opened {
+        /// Everything about it.
+        opened: Box<Opened>,
+        /// Where it came from, when it is one of the program's own.
+        sample: Option<Sample>,
+    },
+    /// The mesh was written.
+    Saved {
+        /// Where.
+        to: PathBuf,
+        /// The state that is on disk now.
+        snapshot: Snapshot,
+        /// What the file could not hold.
+        warnings: Vec<String>,
+    },
+    /// A path was chosen to open.
+    ChosenToOpen(PathBuf),
+    /// A path was chosen to write.
+    ChosenToSave(PathBuf),
+    /// There is no dialog on this machine, or it was closed at once.
+    NoDialog,
+    /// The dialog was closed without a choice.
+    Dismissed,
+    /// It failed: why.
+    Failed(String),
+}
+
+/// A dialog that answers this fast was never shown.
+const INSTANT: std::time::Duration = std::time::Duration::from_millis(400);
+
+/// Starts jobs and collects what they came to.
+pub(super) struct Jobs {
+    sender: Sender<(u64, JobEvent)>,
+    receiver: Receiver<(u64, JobEvent)>,
+    wake: Arc<dyn Fn() + Send + Sync>,
+    /// Number and label of each unfinished job, oldest first.
+    running: Vec<(u64, &'static str)>,
+    next: u64,
+}
+
+impl Jobs {
+    pub(super) fn new(wake: Arc<dyn Fn() + Send + Sync>) -> Jobs {
+        let (sender, receiver) = channel();
+        Jobs { sender, receiver, wake, running: Vec::new(), next: 0 }
+    }
+
+    /// Starts a job. A thread that cannot be started is a failure like any other.
+    pub(super) fn start(&mut self, job: Job) {
+        let (sender, wake) = (self.sender.clone(), self.wake.clone());
+        let number = self.next;
+        self.next += 1;
+        self.running.push((number, label(&job)));
+        let work = move || {
+            let outcome = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| run(job)));
+            let event =
+                outcome.unwrap_or_else(|_| JobEvent::Failed("it stopped unexpectedly; please report it".into()));
+            // Nobody listens any more once the window is closed.
+            let _ = sender.send((number, event));
+            wake();
+        };
+        if let Err(error) = std::thread::Builder::new().name("job".into()).spawn(work) {
+            let _ = self.sender.send((number, JobEvent::Failed(format!("no thread could be started: {error}"))));
+        }
+    }
+
+    /// The next finished job.
+    pub(super) fn poll(&mut self) -> Option<JobEvent> {
+        let (number, event) = self.receiver.try_recv().ok()?;
+        self.running.retain(|&(running, _)| running != number);
+        Some(event)
+    }
+
+    /// What is being done, for the status line.
+    pub(super) fn running(&self) -> Option<&'static str> {
+        self.running.last().map(|&(_, label)| label)
+    }
+}
+
+fn label(job: &Job) -> &'static str {
+    match job {
+        Job::Open(_) | Job::OpenSample(_) => "Opening…",
+        Job::Save { .. } => "Saving…",
+        Job::BrowseOpen | Job::BrowseSave { .. } => "Waiting for the file dialog…",
+    }
+}
+
+fn run(job: Job) -> JobEvent {
+    match job {
+        Job::Open(path) => opened(Model::open(&path), None),
+        Job::OpenSample(sample) => opened(sample.model(), Some(sample)),
+        Job::Save { model, snapshot, to } => save(&model, snapshot, to),
+        Job::BrowseOpen => {
+            let dialog = rfd::FileDialog::new().add_filter("Meshes", pliant_meshfile::Format::EXTENSIONS);
+            ask(|| dialog.pick_file(), JobEvent::ChosenToOpen)
+        }
+        Job::BrowseSave { name } => {
+            let dialog = rfd::FileDialog::new().set_file_name(name);
+            let dialog = dialog.add_filter("Meshes", pliant_meshfile::Format::EXTENSIONS);
+            ask(|| dialog.save_file(), JobEvent::ChosenToSave)
+        }
+    }
+}
+
+fn ask(dialog: impl FnOnce() -> Option<PathBuf>, chosen: impl FnOnce(PathBuf) -> JobEvent) -> JobEvent {
+    let start = std::time::Instant::now();
+    match dialog() {
+        Some(path) => chosen(path),
+        None if start.elapsed() < INSTANT => JobEvent::NoDialog,
+        None => JobEvent::Dismissed,
+    }
+}
+
+fn opened(model: Result<Model, crate::document::ModelError>, sample: Option<Sample>) -> JobEvent {
+    match model {
+        Ok(model) => JobEvent::Opened { opened: Box::new(Opened::new(Arc::new(model))), sample },
+        Err(error) => JobEvent::Failed(error.to_string()),
+    }
+}
+
+impl Opened {
+    /// Prepares what is needed to show and pick a model at rest.
+    pub fn new(model: Arc<Model>) -> Opened {
+        let vertex_normals = VertexNormals::new(model.mesh.n_vertices(), &model.triangles);
+        let positions: Vec<_> = model.mesh.positions().iter().map(|&p| model.to_view(p)).collect();
+        let mut normals = Vec::new();
+        vertex_normals.compute(&positions, &model.triangles, &mut normals);
+        let surface = Surface::new(&model, Arc::new(SurfaceFrame { positions, normals }));
+        Opened { model, surface, normals: vertex_normals }
+    }
+}
+
+fn save(model: &Model, snapshot: Snapshot, to: PathBuf) -> JobEvent {
+    let rigidity = &snapshot.scene.rigidity;
+    // A file that never had r gets none as long as r is what it would be anyway.
+    let matters = rigidity.max() > 1 || model.file.rigidity.is_some();
+    let rigidity = matters.then(|| rigidity.as_slice());
+    match model.file.save(&to, &snapshot.pose.positions, rigidity) {
+        Ok(warnings) => {
+            let warnings = warnings.iter().map(ToString::to_string).collect();
+            JobEvent::Saved { to, snapshot, warnings }
+        }
+        Err(error) => JobEvent::Failed(error.to_string()),
+    }
+}

@@ -1,0 +1,81 @@
+//! Keys: shortcuts of actions, digits for the current r, F for the brush radius, Esc for the tool.
+
+use std::time::{Duration, Instant};
+
+use egui::{Key, Modifiers};
+
+use super::{Action, Session};
+use crate::tools::{Input, Options, ToolKey};
+
+/// Two digits typed within this time are one number.
+const TYPED_TOGETHER: Duration = Duration::from_millis(600);
+
+const DIGITS: [Key; 10] =
+    [Key::Num0, Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5, Key::Num6, Key::Num7, Key::Num8, Key::Num9];
+
+/// What must be remembered between key presses.
+#[derive(Default)]
+pub(super) struct Keyboard {
+    last_digit: Option<(u16, Instant)>,
+}
+
+impl Keyboard {
+    /// Takes the keys of this frame, unless a text field wants them. Returns actions whose shortcut was pressed.
+    pub(super) fn take(&mut self, ctx: &egui::Context, session: &mut Session) -> Vec<Action> {
+        if ctx.text_edit_focused() {
+            return Vec::new();
+        }
+        if ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {
+            session.input(Input::Key(ToolKey::Escape));
+        }
+        self.digits(ctx, session);
+        brush_radius(ctx, session);
+        let mut actions: Vec<Action> = Vec::new();
+        // Longer shortcuts first: Ctrl+Shift+Z also matches Ctrl+Z.
+        let mut all: Vec<Action> = Action::ALL.to_vec();
+        all.sort_by_key(|action| action.shortcut().is_none_or(|shortcut| !shortcut.modifiers.shift));
+        for action in all {
+            if let Some(shortcut) = action.shortcut()
+                && ctx.input_mut(|input| input.consume_shortcut(&shortcut))
+            {
+                actions.push(action);
+            }
+        }
+        for (key, action) in
+            [(Key::Home, Action::Frame), (Key::Backspace, Action::DeleteHandle), (Key::Questionmark, Action::Keys)]
+        {
+            if ctx.input_mut(|input| input.consume_key(Modifiers::NONE, key)) {
+                actions.push(action);
+            }
+        }
+        actions
+    }
+
+    fn digits(&mut self, ctx: &egui::Context, session: &mut Session) {
+        for (digit, key) in (0_u16..).zip(DIGITS) {
+            if !ctx.input_mut(|input| input.consume_key(Modifiers::NONE, key)) {
+                continue;
+            }
+            let now = Instant::now();
+            let r = match self.last_digit {
+                Some((tens, at)) if now.duration_since(at) < TYPED_TOGETHER => tens * 10 + digit,
+                _ => digit,
+            };
+            self.last_digit = (r < 10).then_some((r, now));
+            if r > 0 {
+                session.choose_rigidity(r);
+            }
+        }
+    }
+}
+
+/// While F is held the mouse, moved sideways, sizes the brush.
+fn brush_radius(ctx: &egui::Context, session: &mut Session) {
+    let (held, delta) =
+        ctx.input(|input| (input.key_down(Key::F) && input.modifiers.is_none(), input.pointer.delta().x));
+    if held && delta != 0.0 {
+        let range = Options::BRUSH_RADIUS_PX;
+        let radius = session.options.brush_radius_px + delta * 0.5;
+        session.options.brush_radius_px = radius.clamp(*range.start(), *range.end());
+    }
+}

@@ -1,0 +1,21 @@
+//! The editor: a [`Session`] that knows no window, and an egui application around it.
+
+mod actions;
+mod app;
+mod jobs;
+mod keyboard;
+mod look;
+mod notices;
+mod panels;
+mod samples;
+mod session;
+mod theme;
+mod viewport_panel;
+
+pub use actions::Action;
+pub use app::{EditorApp, EditorError, FrameWork, run};
+pub use jobs::{Job, JobEvent, Opened};
+pub use look::{ColorBy, Look};
+pub use notices::{Notice, NoticeKind, Notices};
+pub use samples::Sample;
+pub use session::{Open, Session, Status, Welcome};

@@ -1,0 +1,45 @@
+//! The inspector at the right: settings of the tool in hand first, then what is always of interest.
+
+use egui::{CollapsingHeader, RichText, ScrollArea, Ui};
+
+use super::sections;
+use crate::editor::{Action, Session};
+use crate::tools::ToolKind;
+
+/// Shows the sections; returns an action whose button was pressed.
+pub(in crate::editor) fn inspector(ui: &mut Ui, session: &mut Session) -> Option<Action> {
+    let mut chosen = None;
+    ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
+        ui.add_space(4.0);
+        let kind = session.tool_kind();
+        ui.label(RichText::new(kind.label()).heading());
+        ui.label(RichText::new(kind.description()).weak());
+        ui.add_space(4.0);
+        match kind {
+            ToolKind::Handle | ToolKind::Anchor => sections::patch(ui, session),
+            ToolKind::Select => sections::select(ui, session, &mut chosen),
+            ToolKind::Brush => sections::brush(ui, session),
+            ToolKind::Fill => {}
+        }
+        let about_rigidity = matches!(kind, ToolKind::Brush | ToolKind::Fill);
+        if about_rigidity {
+            ui.add_space(6.0);
+            sections::rigidity(ui, session, &mut chosen);
+        }
+        ui.separator();
+        if !about_rigidity {
+            section(ui, "Rigidity", true, |ui| sections::rigidity(ui, session, &mut chosen));
+        }
+        section(ui, "Handles", true, |ui| sections::handles(ui, session, &mut chosen));
+        section(ui, "Solver", true, |ui| sections::solver(ui, session));
+        section(ui, "View", false, |ui| sections::view(ui, session));
+    });
+    chosen
+}
+
+fn section(ui: &mut Ui, name: &str, open: bool, contents: impl FnOnce(&mut Ui)) {
+    CollapsingHeader::new(RichText::new(name).strong()).default_open(open).show_unindented(ui, |ui| {
+        contents(ui);
+        ui.add_space(6.0);
+    });
+}

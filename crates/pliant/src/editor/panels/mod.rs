@@ -1,0 +1,37 @@
+//! The parts of the window around the viewport. Each is a function of the session.
+
+mod dialogs;
+mod icons;
+mod inspector;
+mod legend;
+mod menu;
+mod notices;
+mod rail;
+mod sections;
+mod status;
+mod welcome;
+
+pub(super) use dialogs::{Dialog, DialogOutcome, Loss};
+pub(super) use inspector::inspector;
+pub(super) use legend::legend;
+pub(super) use menu::menu;
+pub(super) use notices::notices;
+pub(super) use rail::rail;
+pub(super) use status::status;
+pub(super) use welcome::welcome;
+
+use super::Action;
+use egui::{Response, Ui};
+
+use super::Session;
+
+/// A button for an action: label, tooltip with its key, and the reason when it cannot be done now.
+fn action_button(ui: &mut Ui, session: &Session, action: Action) -> Response {
+    let obstacle = action.obstacle(session);
+    let response = ui.add_enabled(obstacle.is_none(), egui::Button::new(action.label()));
+    let tip = match action.shortcut() {
+        Some(shortcut) => format!("{} ({})", action.tooltip(), ui.ctx().format_shortcut(&shortcut)),
+        None => action.tooltip().to_owned(),
+    };
+    response.on_hover_text(tip).on_disabled_hover_text(obstacle.unwrap_or_default())
+}

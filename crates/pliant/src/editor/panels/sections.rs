@@ -1,0 +1,239 @@
+//! The sections of the inspector.
+
+use egui::{DragValue, RichText, Slider, Ui};
+use egui_plot::{Line, Plot, PlotPoints};
+use pliant_solver::{LooseComponents, Rigidity, Weights};
+
+use super::action_button;
+use crate::document::{Command, Group, GroupKind};
+use crate::editor::{Action, ColorBy, Session, theme};
+use crate::tools::{BrushMode, Options, SelectShape};
+use crate::viewport::{Shading, Theme};
+
+/// Patch size of handles and anchors.
+pub(super) fn patch(ui: &mut Ui, session: &mut Session) {
+    ui.horizontal(|ui| {
+        let slider = Slider::new(&mut session.options.patch_rings, 0..=12);
+        ui.add(slider).on_hover_text("Rings of vertices around the clicked one that are held with it; 0 is one vertex");
+        ui.label("patch rings");
+    });
+}
+
+/// Shape and reach of the selection, and what to make of it.
+pub(super) fn select(ui: &mut Ui, session: &mut Session, chosen: &mut Option<Action>) {
+    ui.horizontal(|ui| {
+        ui.selectable_value(&mut session.options.select_shape, SelectShape::Box, "Box");
+        ui.selectable_value(&mut session.options.select_shape, SelectShape::Lasso, "Lasso");
+        ui.checkbox(&mut session.options.select_through, "through")
+            .on_hover_text("Also take vertices that are hidden behind the surface");
+    });
+    let n = session.document().map_or(0, |document| document.scene().selection.vertices().len());
+    ui.label(RichText::new(format!("{n} selected")).weak());
+    ui.horizontal_wrapped(|ui| {
+        for action in [
+            Action::HandleFromSelection,
+            Action::AnchorFromSelection,
+            Action::HoldEverythingElse,
+            Action::FillSelection,
+            Action::SelectNone,
+        ] {
+            if action_button(ui, session, action).clicked() {
+                *chosen = Some(action);
+            }
+        }
+    });
+}
+
+/// Radius and mode of the brush.
+pub(super) fn brush(ui: &mut Ui, session: &mut Session) {
+    ui.horizontal(|ui| {
+        let slider = Slider::new(&mut session.options.brush_radius_px, Options::BRUSH_RADIUS_PX);
+        ui.add(slider.logarithmic(true).fixed_decimals(0).suffix(" px"))
+            .on_hover_text("Radius on screen; painting follows the surface and does not reach its other side");
+        ui.label("radius");
+    });
+    ui.horizontal_wrapped(|ui| {
+        for (mode, label, tip) in [
+            (BrushMode::Set, "Set", "Give the current rigidity"),
+            (BrushMode::Stiffer, "Stiffer", "One more with each stroke"),
+            (BrushMode::Softer, "Softer", "One less with each stroke (Ctrl)"),
+            (BrushMode::Smooth, "Smooth", "Blend with the neighbors (Shift)"),
+        ] {
+            ui.selectable_value(&mut session.options.brush_mode, mode, label).on_hover_text(tip);
+        }
+    });
+}
+
+/// The current r and what it can be given to.
+pub(super) fn rigidity(ui: &mut Ui, session: &mut Session, chosen: &mut Option<Action>) {
+    ui.horizontal(|ui| {
+        let range = 1..=Rigidity::MAX;
+        let value = DragValue::new(&mut session.options.rigidity).range(range).speed(0.1);
+        ui.add(value).on_hover_text(
+            "Size of the neighborhood that moves as one piece, in rings of edges (r in the paper). 1 is soft rubber, \
+             6 is stiff, 20 is nearly metal",
+        );
+        ui.label("current rigidity");
+    });
+    ui.horizontal_wrapped(|ui| {
+        for r in [1, 2, 3, 4, 6, 10, 20] {
+            let is_current = session.options.rigidity == r;
+            if ui.selectable_label(is_current, r.to_string()).clicked() {
+                session.choose_rigidity(r);
+            }
+        }
+    });
+    if let Some(document) = session.document() {
+        let r = &document.scene().rigidity;
+        let text = match (r.min(), r.max()) {
+            (min, max) if min == max => format!("{min} everywhere"),
+            (min, max) => format!("{min} to {max}, mean {:.1}", r.mean()),
+        };
+        ui.label(RichText::new(text).weak());
+    }
+    if action_button(ui, session, Action::FillAll).clicked() {
+        *chosen = Some(Action::FillAll);
+    }
+}
+
+/// The groups.
+pub(super) fn handles(ui: &mut Ui, session: &mut Session, chosen: &mut Option<Action>) {
+    let Some(document) = session.document() else {
+        return;
+    };
+    let (groups, active) = (document.scene().groups.clone(), document.scene().active);
+    if groups.is_empty() {
+        ui.label(RichText::new("None yet. Hold one part with an anchor, pull another with a handle.").weak());
+        return;
+    }
+    let mut commands = Vec::new();
+    for group in groups.iter() {
+        ui.push_id(group.id.0, |ui| group_row(ui, group, active == Some(group.id), &mut commands));
+    }
+    commands.into_iter().for_each(|command| session.apply(command));
+    ui.horizontal(|ui| {
+        if action_button(ui, session, Action::ResetPose).clicked() {
+            *chosen = Some(Action::ResetPose);
+        }
+    });
+}
+
+fn group_row(ui: &mut Ui, group: &Group, is_active: bool, commands: &mut Vec<Command>) {
+    ui.horizontal(|ui| {
+        let [red, green, blue, _] = if group.kind == GroupKind::Handle { theme::HANDLE } else { theme::ANCHOR };
+        let (rect, _) = ui.allocate_exact_size(egui::vec2(12.0, 12.0), egui::Sense::hover());
+        ui.painter().circle_filled(rect.center(), 5.0, egui::Color32::from_rgb(red, green, blue));
+        ui.painter().circle_stroke(rect.center(), 5.0, ui.visuals().widgets.noninteractive.fg_stroke);
+        let label = ui.selectable_label(is_active, &group.name);
+        if label.on_hover_text(format!("{} vertices", group.vertices.len())).clicked() {
+            commands.push(Command::Activate((!is_active).then_some(group.id)));
+        }
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            if ui.small_button("×").on_hover_text("Let go").clicked() {
+                commands.push(Command::Release(vec![group.id]));
+            }
+            let (label, kind, tip) = match group.kind {
+                GroupKind::Handle => ("anchor it", GroupKind::Anchor, "Hold it where it is now"),
+                GroupKind::Anchor => ("free it", GroupKind::Handle, "Make it movable"),
+            };
+            if ui.small_button(label).on_hover_text(tip).clicked() {
+                commands.push(Command::SetKind(group.id, kind));
+            }
+            if ui.small_button("rest").on_hover_text("Put it back to the rest shape").clicked() {
+                commands.push(Command::ReturnToRest(group.id));
+            }
+        });
+    });
+}
+
+/// Energy curve, weights, loose parts.
+pub(super) fn solver(ui: &mut Ui, session: &mut Session) {
+    plot(ui, session);
+    if let Some(report) = &session.status.report {
+        for remark in &report.remarks {
+            ui.label(RichText::new(remark).color(theme::ACCENT));
+        }
+    }
+    let Some(document) = session.document() else {
+        return;
+    };
+    let (weights, loose) = (document.scene().weights, document.scene().loose);
+    let mut commands = Vec::new();
+    ui.horizontal(|ui| {
+        ui.label("Weights");
+        for (value, label, tip) in [
+            (Weights::Clamped, "clamped", "Cotangents kept positive: right for any mesh"),
+            (Weights::Cotangent, "raw", "Cotangents as in the paper (eq. 2): can fail on irregular meshes"),
+            (Weights::Uniform, "uniform", "1 for every edge"),
+        ] {
+            if ui.selectable_label(weights == value, label).on_hover_text(tip).clicked() {
+                commands.push(Command::SetWeights(value));
+            }
+        }
+    });
+    ui.horizontal(|ui| {
+        ui.label("Parts without handle");
+        for (value, label) in [(LooseComponents::KeepAtRest, "stay"), (LooseComponents::FollowNearest, "follow")] {
+            let tip = "What separate parts of the mesh do that have no handle: stay at rest, or follow the nearest one";
+            if ui.selectable_label(loose == value, label).on_hover_text(tip).clicked() {
+                commands.push(Command::SetLoose(value));
+            }
+        }
+    });
+    commands.into_iter().for_each(|command| session.apply(command));
+}
+
+fn plot(ui: &mut Ui, session: &Session) {
+    let energies = session.status.report.as_ref().map(|report| report.energies.clone()).unwrap_or_default();
+    let points: PlotPoints<'_> =
+        energies.iter().enumerate().filter(|&(_, &e)| e > 0.0).map(|(k, &e)| [k as f64, e.log10()]).collect();
+    Plot::new("energy")
+        .height(84.0)
+        .show_axes([false, true])
+        .y_axis_formatter(|mark, _| format!("1e{:.0}", mark.value))
+        .show_grid([false, true])
+        .allow_drag(false)
+        .allow_zoom(false)
+        .allow_scroll(false)
+        .allow_boxed_zoom(false)
+        .set_margin_fraction(egui::vec2(0.02, 0.12))
+        .show(ui, |plot| plot.line(Line::new("energy", points).color(theme::ACCENT).width(1.6)))
+        .response
+        .on_hover_text("Energy of the last iterations, logarithmic");
+}
+
+/// Settings of the picture.
+pub(super) fn view(ui: &mut Ui, session: &mut Session) {
+    let mut look = session.look.clone();
+    ui.horizontal(|ui| {
+        ui.label("Color");
+        ui.selectable_value(&mut look.color_by, ColorBy::Plain, "plain");
+        ui.selectable_value(&mut look.color_by, ColorBy::Rigidity, "rigidity");
+        ui.selectable_value(&mut look.color_by, ColorBy::Energy, "energy")
+            .on_hover_text("Where the surface is strained most (the share of each vertex in the energy)");
+    });
+    ui.add_enabled_ui(look.color_by != ColorBy::Plain, |ui| {
+        ui.horizontal(|ui| {
+            ui.add(Slider::new(&mut look.opacity, 0.0..=1.0).fixed_decimals(2));
+            ui.label("color strength");
+        });
+    });
+    ui.horizontal(|ui| {
+        ui.label("Shading");
+        ui.selectable_value(&mut look.shading, Shading::Smooth, "smooth");
+        ui.selectable_value(&mut look.shading, Shading::Flat, "flat");
+    });
+    ui.horizontal_wrapped(|ui| {
+        ui.checkbox(&mut look.wireframe, "wireframe");
+        ui.checkbox(&mut look.grid, "grid");
+        ui.checkbox(&mut look.handles, "handles");
+    });
+    ui.horizontal(|ui| {
+        ui.label("Theme");
+        ui.selectable_value(&mut look.theme, Theme::Dark, "dark");
+        ui.selectable_value(&mut look.theme, Theme::Light, "light");
+    });
+    if look != session.look {
+        session.set_look(look);
+    }
+}

@@ -1,0 +1,94 @@
+//! Two lines at the bottom: what is happening, and what the mouse does now.
+
+use egui::{Color32, RichText, Ui};
+
+use crate::editor::{Session, theme};
+use crate::solving::SolveState;
+
+/// Shows both lines.
+pub(in crate::editor) fn status(ui: &mut Ui, session: &mut Session, is_software: bool) {
+    let quiet = theme::palette(session.look.theme).quiet;
+    ui.horizontal(|ui| {
+        state(ui, session);
+        if let Some(document) = session.document() {
+            let mesh = &document.model().mesh;
+            ui.separator();
+            ui.label(RichText::new(format!("{} vertices", grouped(mesh.n_vertices()))).color(quiet));
+        }
+        let report = session.status.report.as_ref().filter(|report| report.pose.is_some());
+        if let Some(report) = report {
+            ui.separator();
+            let energy = format!("energy {}", scientific(report.energy));
+            ui.label(RichText::new(energy).color(quiet).monospace()).on_hover_text("Energy of the pose (eq. 1)");
+            ui.label(RichText::new(format!("iteration {:>5}", report.iteration)).color(quiet).monospace());
+            let change = format!("change {}", scientific(report.relative_decrease));
+            ui.label(RichText::new(change).color(quiet).monospace())
+                .on_hover_text("How much the last iteration lowered the energy, relative to it");
+            ui.label(RichText::new(format!("{:>5.2} ms", report.iteration_ms)).color(quiet).monospace())
+                .on_hover_text("Median time of an iteration");
+            if report.state == SolveState::Iterating {
+                let rate = format!("{:>3.0} surfaces/s", session.status.surfaces_per_second);
+                ui.label(RichText::new(rate).color(quiet).monospace());
+            }
+        }
+        if is_software {
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                ui.label(RichText::new("software rendering").color(theme::ACCENT).small())
+                    .on_hover_text("No graphics card was found: pictures are made by the processor and cost more time");
+            });
+        }
+    });
+    let hint = session.with_tool(|tool, context| tool.hint(context)).unwrap_or_else(|| "Open a mesh".into());
+    ui.horizontal(|ui| {
+        ui.label(RichText::new(hint).color(quiet));
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            let camera = "Middle or right drag: turn · Shift: move · wheel: zoom";
+            ui.label(RichText::new(camera).color(quiet).small());
+        });
+    });
+}
+
+fn state(ui: &mut Ui, session: &Session) {
+    let (color, text) = match (session.running_job(), session.status.report.as_ref().map(|report| &report.state)) {
+        (Some(job), _) => (theme::ACCENT, job.to_owned()),
+        (None, None) => (Color32::GRAY, "Nothing open".to_owned()),
+        (None, Some(SolveState::Resting)) => (Color32::GRAY, "No handles yet".to_owned()),
+        (None, Some(SolveState::Preparing)) => (theme::ACCENT, "Preparing".to_owned()),
+        (None, Some(SolveState::Iterating)) => (theme::ACCENT, "Iterating".to_owned()),
+        (None, Some(SolveState::Settled)) => (Color32::from_rgb(92, 180, 110), "Settled".to_owned()),
+        (None, Some(SolveState::Failed(why))) => (Color32::from_rgb(226, 92, 80), format!("Cannot solve: {why}")),
+    };
+    let (rect, _) = ui.allocate_exact_size(egui::vec2(10.0, 16.0), egui::Sense::hover());
+    ui.painter().circle_filled(rect.center(), 4.0, color);
+    ui.label(text);
+}
+
+/// 12345 as `12 345`.
+fn grouped(n: usize) -> String {
+    let digits = n.to_string();
+    let mut out = String::with_capacity(digits.len() + digits.len() / 3);
+    for (k, digit) in digits.chars().enumerate() {
+        if k > 0 && (digits.len() - k).is_multiple_of(3) {
+            out.push(' ');
+        }
+        out.push(digit);
+    }
+    out
+}
+
+/// Three digits and an exponent, always equally wide.
+fn scientific(value: f64) -> String {
+    format!("{value:>8.2e}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::grouped;
+
+    #[test]
+    fn large_numbers_are_grouped_by_thousands() {
+        for (n, expected) in [(0, "0"), (999, "999"), (1000, "1 000"), (12345, "12 345"), (1234567, "1 234 567")] {
+            assert_eq!(grouped(n), expected);
+        }
+    }
+}

@@ -1,0 +1,417 @@
+//! The editor without its window: what is open, which tool is in hand, what the solver said. Everything the window
+//! does goes through here, and so can a test.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use glam::{DAffine3, Vec2, Vec3};
+use pliant_geometry::VertexNormals;
+use pliant_solver::{Rigidity, VertexId};
+
+use super::jobs::{Jobs, Opened};
+use super::{ColorBy, Job, JobEvent, Look, NoticeKind, Notices, Sample};
+use crate::document::{Command, Document, GroupKind, SelectMode};
+use crate::solving::{SolveReport, SolveState, Worker};
+use crate::tools::{Context, Input, Marks, Options, Surface, Tool, ToolKind, View};
+use crate::viewport::{Camera, SurfaceFrame};
+
+/// A document with what the window needs to show and pick it.
+pub struct Open {
+    /// The truth.
+    pub document: Document,
+    /// The surface as it is on screen.
+    pub surface: Surface,
+    /// The eye.
+    pub camera: Camera,
+    /// Where it is written by *save*, once that is known.
+    pub save_path: Option<PathBuf>,
+    normals: VertexNormals,
+    shown_epoch: u64,
+}
+
+/// What the solver last said, and how often it speaks.
+#[derive(Clone, Default)]
+pub struct Status {
+    /// The newest report that belongs to the open document.
+    pub report: Option<SolveReport>,
+    /// Surfaces a second while iterating.
+    pub surfaces_per_second: f64,
+    last_surface: Option<std::time::Instant>,
+}
+
+/// What a newcomer has already done with the start sample.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Welcome {
+    /// Has moved a handle.
+    pub pulled: bool,
+    /// Has changed r.
+    pub painted: bool,
+    /// Has taken something back.
+    pub undone: bool,
+}
+
+impl Welcome {
+    /// Whether nothing is left to hint at.
+    pub fn all_done(self) -> bool {
+        self.pulled && self.painted && self.undone
+    }
+}
+
+/// Everything behind the window.
+pub struct Session {
+    open: Option<Open>,
+    tool: Box<dyn Tool>,
+    tool_kind: ToolKind,
+    /// Settings of the tools.
+    pub options: Options,
+    /// Settings of the picture.
+    pub look: Look,
+    /// Messages on screen.
+    pub notices: Notices,
+    /// What the solver last said.
+    pub status: Status,
+    viewport_size: Vec2,
+    worker: Worker,
+    jobs: Jobs,
+    sent: Option<(u64, bool)>,
+    welcome: Option<Welcome>,
+}
+
+impl Session {
+    /// An empty session. `wake` is called from other threads when [`Session::poll`] has something to do.
+    pub fn new(wake: impl Fn() + Send + Sync + 'static) -> std::io::Result<Session> {
+        let wake: Arc<dyn Fn() + Send + Sync> = Arc::new(wake);
+        let wake_worker = wake.clone();
+        Ok(Session {
+            open: None,
+            tool: ToolKind::Handle.new_tool(),
+            tool_kind: ToolKind::Handle,
+            options: Options::default(),
+            look: Look::default(),
+            notices: Notices::default(),
+            status: Status::default(),
+            viewport_size: Vec2::new(800.0, 600.0),
+            worker: Worker::start(move || wake_worker())?,
+            jobs: Jobs::new(wake),
+            sent: None,
+            welcome: None,
+        })
+    }
+
+    /// What is open, if anything.
+    pub fn open(&self) -> Option<&Open> {
+        self.open.as_ref()
+    }
+
+    /// What is open, for camera and save path.
+    pub fn open_mut(&mut self) -> Option<&mut Open> {
+        self.open.as_mut()
+    }
+
+    /// The open document, if any.
+    pub fn document(&self) -> Option<&Document> {
+        self.open.as_ref().map(|open| &open.document)
+    }
+
+    /// Starts work in the background; [`Session::poll`] takes what it came to.
+    pub fn start(&mut self, job: Job) {
+        self.jobs.start(job);
+    }
+
+    /// What is being done in the background.
+    pub fn running_job(&self) -> Option<&'static str> {
+        self.jobs.running()
+    }
+
+    /// Shows a model that is already in memory.
+    pub fn show(&mut self, opened: Opened, sample: Option<Sample>) {
+        let Opened { model, surface, normals } = opened;
+        for warning in &model.warnings {
+            self.notices.push(NoticeKind::Warning, warning.clone());
+        }
+        let camera = Camera::framing(model.bounds.0, model.bounds.1);
+        let mut document = Document::new(model);
+        if let Some(sample) = sample {
+            sample.prepare(&mut document);
+        }
+        self.tool = self.tool_kind.new_tool();
+        self.status = Status::default();
+        self.sent = None;
+        self.welcome = (sample == Some(Sample::Creature)).then(Welcome::default);
+        self.open = Some(Open { document, surface, camera, save_path: None, normals, shown_epoch: 0 });
+        self.synchronize();
+    }
+
+    /// Takes what the solver and the jobs have to say. Returns requests for the window: paths chosen in dialogs.
+    pub fn poll(&mut self) -> Vec<JobEvent> {
+        if let Some(report) = self.worker.poll() {
+            self.take_report(report);
+        }
+        let mut for_window = Vec::new();
+        while let Some(event) = self.jobs.poll() {
+            match event {
+                JobEvent::Opened { opened, sample } => {
+                    self.notices.dismiss_done();
+                    self.show(*opened, sample);
+                }
+                JobEvent::Saved { to, snapshot, warnings } => self.saved(to, snapshot, warnings),
+                JobEvent::Failed(why) => self.notices.push(NoticeKind::Error, why),
+                JobEvent::Dismissed => {}
+                JobEvent::NoDialog => self.notices.push(
+                    NoticeKind::Warning,
+                    "No file dialog answered on this machine: type the path instead, or drop a file on the window",
+                ),
+                event @ (JobEvent::ChosenToOpen(_) | JobEvent::ChosenToSave(_)) => for_window.push(event),
+            }
+        }
+        for_window
+    }
+
+    fn saved(&mut self, to: PathBuf, snapshot: crate::document::Snapshot, warnings: Vec<String>) {
+        self.notices.dismiss_done();
+        self.notices.push(NoticeKind::Done, format!("Saved {}", to.display()));
+        for warning in warnings {
+            self.notices.push(NoticeKind::Warning, warning);
+        }
+        if let Some(open) = &mut self.open {
+            open.document.mark_saved(snapshot);
+            open.save_path = Some(to);
+        }
+    }
+
+    fn take_report(&mut self, report: SolveReport) {
+        let Some(open) = &mut self.open else { return };
+        if !open.document.accept(&report) {
+            return;
+        }
+        if let Some(frame) = &report.frame {
+            open.surface.set_frame(frame.clone());
+            self.status.count_surface();
+        }
+        let failed_before = matches!(self.status.report, Some(SolveReport { state: SolveState::Failed(_), .. }));
+        if let SolveState::Failed(why) = &report.state
+            && !failed_before
+        {
+            self.notices.push(NoticeKind::Error, format!("Cannot solve: {why}"));
+        }
+        self.status.report = Some(report);
+    }
+
+    /// Hints for a newcomer, while they are wanted.
+    pub fn welcome(&self) -> Option<Welcome> {
+        self.welcome
+    }
+
+    /// No more hints.
+    pub fn dismiss_welcome(&mut self) {
+        self.welcome = None;
+    }
+
+    /// Carries out a command; a refusal becomes a notice.
+    pub fn apply(&mut self, command: Command) {
+        let Some(open) = &mut self.open else { return };
+        if let Err(error) = open.document.apply(command) {
+            self.notices.push(NoticeKind::Error, error.to_string());
+        } else if let Some(welcome) = &mut self.welcome {
+            let scene = open.document.scene();
+            welcome.pulled |= scene.groups.iter().any(|group| group.motion != DAffine3::IDENTITY);
+            welcome.painted |= scene.rigidity != open.document.model().rigidity;
+        }
+        self.synchronize();
+    }
+
+    /// Takes back the newest step.
+    pub fn undo(&mut self) {
+        self.cancel_tool();
+        if let Some(open) = &mut self.open {
+            let undone = open.document.undo().is_some();
+            if let Some(welcome) = &mut self.welcome {
+                welcome.undone |= undone;
+            }
+        }
+        self.synchronize();
+    }
+
+    /// Makes the newest undone step again.
+    pub fn redo(&mut self) {
+        self.cancel_tool();
+        if let Some(open) = &mut self.open {
+            open.document.redo();
+        }
+        self.synchronize();
+    }
+
+    /// Sends the newest wish to the solver and shows a pose that jumped.
+    fn synchronize(&mut self) {
+        let Some(open) = &mut self.open else { return };
+        if open.document.epoch() != open.shown_epoch {
+            open.shown_epoch = open.document.epoch();
+            open.show_pose();
+        }
+        let energies = self.look.color_by == ColorBy::Energy;
+        let wish = (open.document.revision(), energies);
+        if self.sent != Some(wish) {
+            self.sent = Some(wish);
+            let mut request = open.document.request();
+            request.wants_vertex_energies = energies;
+            self.worker.request(request);
+        }
+    }
+
+    /// Changes the picture's settings.
+    pub fn set_look(&mut self, look: Look) {
+        self.look = look;
+        self.synchronize();
+    }
+
+    /// The tool in hand.
+    pub fn tool_kind(&self) -> ToolKind {
+        self.tool_kind
+    }
+
+    /// Takes another tool in hand; what the old one had under way is taken back.
+    pub fn take_tool(&mut self, kind: ToolKind) {
+        self.cancel_tool();
+        self.tool_kind = kind;
+        self.tool = kind.new_tool();
+    }
+
+    fn cancel_tool(&mut self) {
+        if self.tool.is_active() {
+            self.input(Input::Key(crate::tools::ToolKey::Escape));
+        }
+    }
+
+    /// Passes input to the tool in hand and carries out what it wants.
+    pub fn input(&mut self, input: Input) {
+        let Some(open) = &mut self.open else { return };
+        let view = View { camera: open.camera, size: self.viewport_size };
+        let mut context =
+            Context { document: &open.document, view, surface: &mut open.surface, options: &self.options };
+        let reaction = self.tool.handle(input, &mut context);
+        if let Some(r) = reaction.rigidity {
+            self.options.rigidity = r;
+        }
+        for command in reaction.commands {
+            self.apply(command);
+        }
+    }
+
+    /// Asks the tool in hand about its looks.
+    pub fn with_tool<T>(&mut self, ask: impl FnOnce(&dyn Tool, &Context<'_>) -> T) -> Option<T> {
+        let open = self.open.as_mut()?;
+        let view = View { camera: open.camera, size: self.viewport_size };
+        let context = Context { document: &open.document, view, surface: &mut open.surface, options: &self.options };
+        Some(ask(&*self.tool, &context))
+    }
+
+    /// What the tool draws now.
+    pub fn marks(&mut self) -> Marks {
+        self.with_tool(|tool, context| tool.marks(context)).unwrap_or_default()
+    }
+
+    /// Whether a drag or stroke is under way.
+    pub fn tool_is_active(&self) -> bool {
+        self.tool.is_active()
+    }
+
+    /// Size of the viewport in points.
+    pub fn viewport_size(&self) -> Vec2 {
+        self.viewport_size
+    }
+
+    /// Tells the size of the viewport in points.
+    pub fn set_viewport_size(&mut self, size: Vec2) {
+        self.viewport_size = size.max(Vec2::ONE);
+    }
+
+    /// Holds the selected vertices.
+    pub fn hold_selection(&mut self, kind: GroupKind) {
+        if let Some(document) = self.document() {
+            let vertices = document.scene().selection.vertices().to_vec();
+            self.apply(Command::Hold { kind, vertices });
+        }
+    }
+
+    /// Anchors every vertex that is neither selected nor held: the selection becomes the region of interest.
+    pub fn hold_everything_else(&mut self) {
+        let Some(document) = self.document() else {
+            return;
+        };
+        let scene = document.scene();
+        let mut is_free = vec![true; document.model().mesh.n_vertices()];
+        scene.selection.vertices().iter().for_each(|v| is_free[v.index()] = false);
+        scene.groups.iter().flat_map(|group| group.vertices.iter()).for_each(|v| is_free[v.index()] = false);
+        let vertices = (0..).zip(is_free).filter(|&(_, free)| free).map(|(v, _)| VertexId(v)).collect();
+        self.apply(Command::Hold { kind: GroupKind::Anchor, vertices });
+    }
+
+    /// Gives the selected vertices the current r.
+    pub fn fill_selection(&mut self) {
+        if let Some(document) = self.document() {
+            let vertices = document.scene().selection.vertices().to_vec();
+            self.apply(Command::Fill { vertices, r: self.options.rigidity });
+        }
+    }
+
+    /// Selects every vertex, or none.
+    pub fn select_all(&mut self, all: bool) {
+        if let Some(document) = self.document() {
+            let n = if all { document.model().mesh.n_vertices() as u32 } else { 0 };
+            self.apply(Command::Select((0..n).map(VertexId).collect(), SelectMode::Replace));
+        }
+    }
+
+    /// Sets the current r, kept within what the solver takes.
+    pub fn choose_rigidity(&mut self, r: u16) {
+        self.options.rigidity = r.clamp(1, Rigidity::MAX);
+    }
+
+    /// Turns the camera so that the selection, or else the whole surface, fills the viewport.
+    pub fn frame(&mut self) {
+        let Some(open) = &mut self.open else { return };
+        let positions = &open.surface.frame().positions;
+        let selection = open.document.scene().selection.vertices();
+        let bounds = if selection.is_empty() {
+            bounds(positions.iter().copied())
+        } else {
+            bounds(selection.iter().map(|v| positions[v.index()]))
+        };
+        if let Some((lo, hi)) = bounds {
+            open.camera.frame(lo, hi);
+        }
+    }
+}
+
+impl Open {
+    /// Smallest and largest corner of the surface on screen, view space.
+    pub fn bounds(&self) -> (Vec3, Vec3) {
+        bounds(self.surface.frame().positions.iter().copied()).unwrap_or_default()
+    }
+
+    /// Makes the picture show the document's pose without waiting for the solver.
+    fn show_pose(&mut self) {
+        let model = self.document.model();
+        let positions: Vec<_> = self.document.pose().positions.iter().map(|&p| model.to_view(p)).collect();
+        let mut normals = Vec::new();
+        self.normals.compute(&positions, &model.triangles, &mut normals);
+        self.surface.set_frame(Arc::new(SurfaceFrame { positions, normals }));
+    }
+}
+
+impl Status {
+    /// Exponential mean over about ten surfaces; a pause of a second or more starts anew.
+    fn count_surface(&mut self) {
+        let now = std::time::Instant::now();
+        if let Some(last) = self.last_surface.replace(now) {
+            let seconds = now.duration_since(last).as_secs_f64();
+            let rate = 1.0 / seconds.max(1e-6);
+            let keep = if seconds > 1.0 || self.surfaces_per_second == 0.0 { 0.0 } else { 0.9 };
+            self.surfaces_per_second = keep * self.surfaces_per_second + (1.0 - keep) * rate;
+        }
+    }
+}
+
+fn bounds(points: impl Iterator<Item = Vec3>) -> Option<(Vec3, Vec3)> {
+    points.map(|p| (p, p)).reduce(|(lo, hi), (p, _)| (lo.min(p), hi.max(p)))
+}

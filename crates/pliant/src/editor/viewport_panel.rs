@@ -1,0 +1,322 @@
+//! The picture in the window: what it shows, and which mouse movement goes to the camera and which to the tool.
+
+use std::sync::Arc;
+
+use egui::{Event, PointerButton, Pos2, Rect};
+use glam::{Vec2, Vec3};
+use pliant_solver::{Rigidity, VertexId};
+
+use super::{ColorBy, Sample, Session, theme};
+use crate::document::{GroupKind, Selection};
+use crate::tools::{Cursor, Input, Modifiers, Pointer};
+use crate::viewport::{Coloring, Dot, Line, Renderer, SurfaceFrame, ViewScene, samples_for};
+
+/// Larger groups show only some of their vertices: thousands of dots hide the surface (by eye).
+const DOTS_PER_GROUP: usize = 300;
+/// Zoom for one point of scrolling; a notch of a common wheel is 50 points or a factor of 1.13 (by eye).
+const ZOOM_PER_POINT: f32 = 0.0025;
+
+/// Which drag is under way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Gesture {
+    Tool,
+    Orbit,
+    Pan,
+    Zoom,
+}
+
+/// Values that are made anew only when their source changed.
+#[derive(Default)]
+struct Cache {
+    rigidity: Option<(Rigidity, Arc<[u16]>)>,
+    selected: Option<(Selection, usize, Arc<[bool]>)>,
+    bounds: Option<(Arc<SurfaceFrame>, (Vec3, Vec3))>,
+    dots: Arc<[Dot]>,
+    lines: Arc<[Line]>,
+}
+
+/// The renderer, its texture in egui, and the drag under way.
+pub(super) struct ViewportPanel {
+    renderer: Renderer,
+    render_state: eframe::egui_wgpu::RenderState,
+    texture: Option<(egui::TextureId, u64)>,
+    gesture: Option<Gesture>,
+    /// The button that began the gesture: only its release ends it.
+    button: Option<PointerButton>,
+    pointer: Option<Pos2>,
+    cache: Cache,
+    /// Whether pictures are made by the processor.
+    pub(super) is_software: bool,
+    /// Time that the renderer took for the last picture, on this thread.
+    pub(super) drawing: std::time::Duration,
+}
+
+impl ViewportPanel {
+    pub(super) fn new(render_state: &eframe::egui_wgpu::RenderState) -> ViewportPanel {
+        let info = render_state.adapter.get_info();
+        ViewportPanel {
+            renderer: Renderer::new(&render_state.device, &render_state.queue, samples_for(&info)),
+            is_software: info.device_type == wgpu::DeviceType::Cpu,
+            render_state: render_state.clone(),
+            drawing: std::time::Duration::ZERO,
+            texture: None,
+            gesture: None,
+            button: None,
+            pointer: None,
+            cache: Cache::default(),
+        }
+    }
+
+    /// Takes input and shows the picture; fills the rest of `ui`.
+    pub(super) fn show(&mut self, ui: &mut egui::Ui, session: &mut Session) {
+        let (rect, response) = ui.allocate_exact_size(ui.available_size(), egui::Sense::click_and_drag());
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "viewport"));
+        if response.clicked() || response.drag_started() {
+            response.request_focus(); // takes the keyboard away from text fields
+        }
+        session.set_viewport_size(to_vec(rect.size()));
+        self.take_input(ui, &response, rect, session);
+        self.paint(ui, rect, session);
+        if let Some(cursor) = session.with_tool(|tool, _| tool.cursor())
+            && response.hovered()
+        {
+            ui.set_cursor_icon(match (self.gesture, cursor) {
+                (Some(Gesture::Orbit | Gesture::Pan | Gesture::Zoom), _) => egui::CursorIcon::Move,
+                (_, Cursor::Arrow) => egui::CursorIcon::Default,
+                (_, Cursor::Cross) => egui::CursorIcon::Crosshair,
+                (_, Cursor::Grab) => egui::CursorIcon::Grab,
+                (_, Cursor::Grabbing) => egui::CursorIcon::Grabbing,
+            });
+        }
+    }
+
+    /// Goes through the events one by one, so that a press, a move and a release within a frame keep their order.
+    fn take_input(&mut self, ui: &egui::Ui, response: &egui::Response, rect: Rect, session: &mut Session) {
+        let is_over = response.contains_pointer() && ui.is_enabled();
+        let (events, scroll, pinch) =
+            ui.input(|input| (input.events.clone(), input.smooth_scroll_delta().y, input.zoom_delta()));
+        for event in events {
+            match event {
+                Event::PointerButton { pos, button, pressed: true, modifiers } if is_over => {
+                    self.press(pos, button, modifiers, rect, session);
+                }
+                Event::PointerButton { pos, button, pressed: false, modifiers } if self.button == Some(button) => {
+                    let ended = self.gesture.take();
+                    self.button = None;
+                    if ended == Some(Gesture::Tool) {
+                        session.input(Input::Release(pointer(pos, modifiers, rect)));
+                    }
+                }
+                Event::PointerMoved(pos) => {
+                    let modifiers = ui.input(|input| input.modifiers);
+                    self.moved(pos, modifiers, is_over, rect, session);
+                }
+                Event::PointerGone => {
+                    self.pointer = None;
+                    session.input(Input::Leave);
+                }
+                _ => {}
+            }
+        }
+        if !is_over && self.gesture.is_none() {
+            session.input(Input::Leave);
+        }
+        let factor = (scroll * ZOOM_PER_POINT).exp() * pinch;
+        if is_over
+            && factor != 1.0
+            && let (Some(pos), Some(open)) = (self.pointer, session.open_mut())
+        {
+            open.camera.zoom(factor, to_vec(pos - rect.min), to_vec(rect.size()));
+        }
+    }
+
+    fn press(&mut self, pos: Pos2, button: PointerButton, keys: egui::Modifiers, rect: Rect, session: &mut Session) {
+        if self.gesture.is_some() {
+            return;
+        }
+        self.pointer = Some(pos);
+        self.gesture = match (button, keys.alt, keys.shift) {
+            (PointerButton::Primary, false, _) => Some(Gesture::Tool),
+            (PointerButton::Primary, true, _) => Some(Gesture::Orbit),
+            (PointerButton::Middle, true, _) | (PointerButton::Middle, _, true) => Some(Gesture::Pan),
+            (PointerButton::Secondary, true, _) => Some(Gesture::Zoom),
+            (PointerButton::Secondary, _, true) => Some(Gesture::Pan),
+            (PointerButton::Middle | PointerButton::Secondary, _, _) => Some(Gesture::Orbit),
+            _ => None,
+        };
+        self.button = self.gesture.map(|_| button);
+        if self.gesture == Some(Gesture::Tool) {
+            session.input(Input::Press(pointer(pos, keys, rect)));
+        }
+    }
+
+    fn moved(&mut self, pos: Pos2, keys: egui::Modifiers, is_over: bool, rect: Rect, session: &mut Session) {
+        let delta = self.pointer.replace(pos).map_or(Vec2::ZERO, |last| to_vec(pos - last));
+        let size = to_vec(rect.size());
+        match self.gesture {
+            Some(Gesture::Tool) => session.input(Input::Drag(pointer(pos, keys, rect))),
+            None if is_over => session.input(Input::Hover(pointer(pos, keys, rect))),
+            None => {}
+            Some(gesture) => {
+                let Some(open) = session.open_mut() else {
+                    return;
+                };
+                match gesture {
+                    Gesture::Orbit => open.camera.orbit(delta),
+                    Gesture::Pan => open.camera.pan(delta, size),
+                    Gesture::Zoom => open.camera.zoom((-delta.y * 0.01).exp(), size * 0.5, size),
+                    Gesture::Tool => {}
+                }
+            }
+        }
+    }
+
+    fn paint(&mut self, ui: &egui::Ui, rect: Rect, session: &mut Session) {
+        let pixels_per_point = ui.pixels_per_point();
+        let Some(scene) = self.scene(session, pixels_per_point) else {
+            ui.painter().rect_filled(rect, 0.0, theme::palette(session.look.theme).well);
+            return;
+        };
+        let size = (rect.size() * pixels_per_point).round().max(egui::Vec2::splat(1.0));
+        let begun = std::time::Instant::now();
+        let (view, generation) = self.renderer.render(&scene, [size.x as u32, size.y as u32]);
+        self.drawing = begun.elapsed();
+        let mut egui_renderer = self.render_state.renderer.write();
+        let device = &self.render_state.device;
+        let id = match self.texture {
+            Some((id, shown)) if shown == generation => id,
+            Some((id, _)) => {
+                egui_renderer.update_egui_texture_from_wgpu_texture(device, view, wgpu::FilterMode::Linear, id);
+                id
+            }
+            None => egui_renderer.register_native_texture(device, view, wgpu::FilterMode::Linear),
+        };
+        self.texture = Some((id, generation));
+        drop(egui_renderer);
+        let whole = Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
+        ui.painter().image(id, rect, whole, egui::Color32::WHITE);
+        let outline = session.marks().outline;
+        if outline.len() > 1 {
+            let points: Vec<Pos2> = outline.iter().map(|p| rect.min + egui::vec2(p.x, p.y)).collect();
+            ui.painter().add(egui::Shape::closed_line(points, egui::Stroke::new(1.5, theme::ACCENT)));
+        }
+    }
+
+    /// What the picture shows now; cheap where nothing changed.
+    fn scene(&mut self, session: &mut Session, pixels_per_point: f32) -> Option<ViewScene> {
+        let marks = session.marks();
+        let look = session.look.clone();
+        let values = session.status.report.as_ref().and_then(|report| report.vertex_energies.clone());
+        let open = session.open()?;
+        let (scene, model) = (open.document.scene(), open.document.model());
+        let frame = open.surface.frame().clone();
+        let mut dots = if look.handles { group_dots(session) } else { Vec::new() };
+        dots.extend(marks.dots);
+        keep(&mut self.cache.dots, dots);
+        keep(&mut self.cache.lines, if look.handles { marks.lines } else { Vec::new() });
+        let coloring = match look.color_by {
+            ColorBy::Rigidity => Coloring::Rigidity,
+            ColorBy::Energy if values.is_some() => Coloring::Energy,
+            ColorBy::Plain | ColorBy::Energy => Coloring::Plain,
+        };
+        Some(ViewScene {
+            triangles: model.triangles.clone(),
+            rigidity: self.cache.rigidity(&scene.rigidity),
+            values,
+            selected: self.cache.selected(&scene.selection, frame.positions.len()),
+            base_colors: model.base_colors.clone(),
+            dots: self.cache.dots.clone(),
+            lines: self.cache.lines.clone(),
+            coloring,
+            ramp_max: Sample::ramp_max(&scene.rigidity),
+            color_opacity: look.opacity,
+            shading: look.shading,
+            wireframe: look.wireframe,
+            grid: look.grid,
+            theme: look.theme,
+            camera: open.camera,
+            bounds: self.cache.bounds(&frame, || open.bounds()),
+            frame,
+            pixels_per_point,
+        })
+    }
+}
+
+impl Cache {
+    fn rigidity(&mut self, rigidity: &Rigidity) -> Arc<[u16]> {
+        match &self.rigidity {
+            Some((known, values)) if std::ptr::eq(known.as_slice(), rigidity.as_slice()) => values.clone(),
+            _ => {
+                let values: Arc<[u16]> = rigidity.as_slice().into();
+                self.rigidity = Some((rigidity.clone(), values.clone()));
+                values
+            }
+        }
+    }
+
+    fn selected(&mut self, selection: &Selection, n: usize) -> Option<Arc<[bool]>> {
+        if selection.is_empty() {
+            self.selected = None;
+            return None;
+        }
+        match &self.selected {
+            Some((known, of, flags)) if *of == n && std::ptr::eq(known.vertices(), selection.vertices()) => {
+                Some(flags.clone())
+            }
+            _ => {
+                let mut flags = vec![false; n];
+                selection.vertices().iter().for_each(|v| flags[v.index()] = true);
+                let flags: Arc<[bool]> = flags.into();
+                self.selected = Some((selection.clone(), n, flags.clone()));
+                Some(flags)
+            }
+        }
+    }
+
+    fn bounds(&mut self, frame: &Arc<SurfaceFrame>, compute: impl FnOnce() -> (Vec3, Vec3)) -> (Vec3, Vec3) {
+        match &self.bounds {
+            Some((known, bounds)) if Arc::ptr_eq(known, frame) => *bounds,
+            _ => {
+                let bounds = compute();
+                self.bounds = Some((frame.clone(), bounds));
+                bounds
+            }
+        }
+    }
+}
+
+/// Keeps the old allocation, and with it its identity, when the content is the same.
+fn keep<T: PartialEq>(kept: &mut Arc<[T]>, new: Vec<T>) {
+    if **kept != *new {
+        *kept = new.into();
+    }
+}
+
+fn group_dots(session: &Session) -> Vec<Dot> {
+    let Some(open) = session.open() else {
+        return Vec::new();
+    };
+    let scene = open.document.scene();
+    let positions = &open.surface.frame().positions;
+    let mut dots = Vec::new();
+    for group in scene.groups.iter() {
+        let color = if group.kind == GroupKind::Handle { theme::HANDLE } else { theme::ANCHOR };
+        let dot = |v: &VertexId| Dot { position: positions[v.index()], color, radius_px: 2.5 };
+        dots.extend(group.vertices.iter().step_by(group.vertices.len().div_ceil(DOTS_PER_GROUP)).map(dot));
+        let radius_px = if scene.active == Some(group.id) { 8.0 } else { 6.0 };
+        // The middle of anchors may lie far from all of them; a handle is taken there.
+        if group.kind == GroupKind::Handle {
+            let position = open.document.model().to_view(group.center());
+            dots.push(Dot { position, color, radius_px });
+        }
+    }
+    dots
+}
+
+fn pointer(pos: Pos2, keys: egui::Modifiers, rect: Rect) -> Pointer {
+    Pointer { px: to_vec(pos - rect.min), modifiers: Modifiers { shift: keys.shift, ctrl: keys.command } }
+}
+
+fn to_vec(v: egui::Vec2) -> Vec2 {
+    Vec2::new(v.x, v.y)
+}

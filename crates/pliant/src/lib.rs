@@ -1,0 +1,8 @@
+//! Pliant: bend any mesh, and say where it is stiff. The editor and the command line over one document.
+
+pub mod cli;
+pub mod document;
+pub mod editor;
+pub mod solving;
+pub mod tools;
+pub mod viewport;

@@ -1,0 +1,63 @@
+//! A place for one letter: a newer one replaces an older one.
+
+use std::sync::{Condvar, Mutex, PoisonError};
+
+/// Holds at most one value, and a flag that no more will come.
+#[derive(Debug)]
+pub(super) struct Mailbox<T> {
+    inner: Mutex<Inner<T>>,
+    arrived: Condvar,
+}
+
+#[derive(Debug)]
+struct Inner<T> {
+    letter: Option<T>,
+    closed: bool,
+}
+
+/// The sender is gone.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) struct Closed;
+
+impl<T> Mailbox<T> {
+    pub(super) fn new() -> Mailbox<T> {
+        Mailbox { inner: Mutex::new(Inner { letter: None, closed: false }), arrived: Condvar::new() }
+    }
+
+    /// Replaces what has not been taken yet.
+    pub(super) fn put(&self, letter: T) {
+        self.lock().letter = Some(letter);
+        self.arrived.notify_one();
+    }
+
+    /// The newest letter, if one has come since the last look.
+    pub(super) fn take(&self) -> Result<Option<T>, Closed> {
+        let mut inner = self.lock();
+        if inner.closed { Err(Closed) } else { Ok(inner.letter.take()) }
+    }
+
+    /// Sleeps until a letter comes.
+    pub(super) fn wait(&self) -> Result<T, Closed> {
+        let mut inner = self.lock();
+        loop {
+            if inner.closed {
+                return Err(Closed);
+            }
+            if let Some(letter) = inner.letter.take() {
+                return Ok(letter);
+            }
+            inner = self.arrived.wait(inner).unwrap_or_else(PoisonError::into_inner);
+        }
+    }
+
+    /// Wakes whoever waits, for the last time.
+    pub(super) fn close(&self) {
+        self.lock().closed = true;
+        self.arrived.notify_all();
+    }
+
+    /// A panic elsewhere cannot leave the two fields inconsistent, so a poisoned lock is still good.
+    fn lock(&self) -> std::sync::MutexGuard<'_, Inner<T>> {
+        self.inner.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}

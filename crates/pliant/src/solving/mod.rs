@@ -1,0 +1,14 @@
+//! The solver on a thread of its own.
+//!
+//! The window states its whole wish as a [`SolveRequest`]; the worker compares it with what it holds and chooses to
+//! move targets, refactor or rebuild. Both directions are mailboxes that keep only the newest letter, so nothing piles
+//! up and no order can be wrong.
+
+mod engine;
+mod mailbox;
+mod request;
+mod worker;
+
+pub use engine::Engine;
+pub use request::{SolveReport, SolveRequest, SolveState};
+pub use worker::Worker;

@@ -1,0 +1,77 @@
+//! What is said between the document and the solver thread.
+
+use std::sync::Arc;
+
+use pliant_solver::{LooseComponents, Rigidity, Weights};
+
+use crate::document::{Group, Model, Pose};
+use crate::viewport::SurfaceFrame;
+
+/// The whole wish: not what changed, but what should hold.
+#[derive(Clone)]
+pub struct SolveRequest {
+    /// Goes up with every wish.
+    pub revision: u64,
+    /// Goes up when the pose jumps; the worker then takes over `pose`.
+    pub epoch: u64,
+    /// The document's pose when the wish was made: where a solver starts that jumped or had to be built anew.
+    pub pose: Pose,
+    /// The surface.
+    pub model: Arc<Model>,
+    /// r of every surface point.
+    pub rigidity: Rigidity,
+    /// Held vertices and where they must be.
+    pub groups: Arc<[Group]>,
+    /// Edge weights.
+    pub weights: Weights,
+    /// What parts without handles do.
+    pub loose: LooseComponents,
+    /// Whether reports should carry the energy of every vertex.
+    pub wants_vertex_energies: bool,
+}
+
+/// How the solver is doing.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SolveState {
+    /// Nothing is held, so there is nothing to solve.
+    Resting,
+    /// Building neighborhoods or factoring.
+    Preparing,
+    /// Energy is still falling.
+    Iterating,
+    /// Energy has stopped falling.
+    Settled,
+    /// It cannot be solved: why, and what to do.
+    Failed(String),
+}
+
+/// The solver's answer.
+#[derive(Clone)]
+pub struct SolveReport {
+    /// The surface it belongs to.
+    pub model: Arc<Model>,
+    /// The newest wish it knows of.
+    pub revision: u64,
+    /// The epoch it belongs to.
+    pub epoch: u64,
+    /// How it is doing.
+    pub state: SolveState,
+    /// New positions, unless there are none.
+    pub pose: Option<Pose>,
+    /// The same in view space with normals, ready for the picture.
+    pub frame: Option<Arc<SurfaceFrame>>,
+    /// Energy (paper eq. 1), in the file's units.
+    pub energy: f64,
+    /// Iterations since the solver was built.
+    pub iteration: u64,
+    /// (E before − E after) / E before of the last iteration.
+    pub relative_decrease: f64,
+    /// Median time of the last iterations, milliseconds.
+    pub iteration_ms: f64,
+    /// Energies of the last iterations, oldest first.
+    pub energies: Arc<[f64]>,
+    /// Energy of every vertex scaled so that 1 is the largest, when asked for.
+    pub vertex_energies: Option<Arc<[f32]>>,
+    /// What the user should know: parts without a handle, for instance.
+    pub remarks: Vec<String>,
+}

@@ -1,0 +1,75 @@
+//! From pointer and keys to commands. Each tool is a small state machine that knows nothing of windows; what it shows
+//! (marks, hint, cursor) is a function of its state.
+//!
+//! Adding a tool is one file that implements [`Tool`] and one line in [`ToolKind::ALL`] and [`ToolKind::new_tool`].
+
+mod brush;
+mod fill;
+mod gizmo;
+mod options;
+mod place;
+mod region;
+mod select;
+mod surface;
+mod tool;
+
+pub use gizmo::{Gizmo, GizmoPart};
+pub use options::{BrushMode, Options, SelectShape};
+pub use surface::{Pick, Surface};
+pub use tool::{Context, Cursor, Input, Marks, Modifiers, Pointer, Reaction, Tool, ToolKey, View};
+
+use crate::document::GroupKind;
+
+/// Which tool plain left clicks speak to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ToolKind {
+    /// Places and drags handles.
+    Handle,
+    /// Places anchors.
+    Anchor,
+    /// Selects surface points.
+    Select,
+    /// Paints rigidity.
+    Brush,
+    /// Fills regions with rigidity.
+    Fill,
+}
+
+impl ToolKind {
+    /// In the order of the tool rail.
+    pub const ALL: [ToolKind; 5] =
+        [ToolKind::Handle, ToolKind::Anchor, ToolKind::Select, ToolKind::Brush, ToolKind::Fill];
+
+    /// Name on its button.
+    pub fn label(self) -> &'static str {
+        match self {
+            ToolKind::Handle => "Handle",
+            ToolKind::Anchor => "Anchor",
+            ToolKind::Select => "Select",
+            ToolKind::Brush => "Brush",
+            ToolKind::Fill => "Fill",
+        }
+    }
+
+    /// What it does, for the tooltip.
+    pub fn description(self) -> &'static str {
+        match self {
+            ToolKind::Handle => "Click the surface to place a handle, drag handles to bend it",
+            ToolKind::Anchor => "Click the surface to hold it where it is",
+            ToolKind::Select => "Drag a box or lasso around vertices to make handles, anchors or fills of them",
+            ToolKind::Brush => "Paint how stiff the surface is",
+            ToolKind::Fill => "Fill the selection, or a region of equal rigidity",
+        }
+    }
+
+    /// A fresh tool of this kind, idle.
+    pub fn new_tool(self) -> Box<dyn Tool> {
+        match self {
+            ToolKind::Handle => Box::new(place::PlaceTool::new(GroupKind::Handle)),
+            ToolKind::Anchor => Box::new(place::PlaceTool::new(GroupKind::Anchor)),
+            ToolKind::Select => Box::<select::SelectTool>::default(),
+            ToolKind::Brush => Box::<brush::BrushTool>::default(),
+            ToolKind::Fill => Box::<fill::FillTool>::default(),
+        }
+    }
+}

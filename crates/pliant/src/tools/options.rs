@@ -1,0 +1,59 @@
+//! What the inspector lets the user set for the tools.
+
+/// What a brush dab does to r.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BrushMode {
+    /// Sets the current r.
+    Set,
+    /// One more, once a stroke.
+    Stiffer,
+    /// One less, once a stroke.
+    Softer,
+    /// The mean of the neighbors.
+    Smooth,
+}
+
+/// What a drag of the select tool draws.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SelectShape {
+    /// A rectangle.
+    Box,
+    /// A free closed line.
+    Lasso,
+}
+
+/// Settings of all tools; plain values.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Options {
+    /// r that brush and fill give.
+    pub rigidity: u16,
+    /// What the brush does.
+    pub brush_mode: BrushMode,
+    /// Brush radius on screen, in points.
+    pub brush_radius_px: f32,
+    /// Rings of vertices around the clicked one that become a handle or anchor; 0 is the vertex alone.
+    pub patch_rings: u16,
+    /// Box or lasso.
+    pub select_shape: SelectShape,
+    /// Whether box and lasso take hidden vertices too.
+    pub select_through: bool,
+}
+
+impl Options {
+    /// Smallest and largest brush radius, in points (by eye).
+    pub const BRUSH_RADIUS_PX: std::ops::RangeInclusive<f32> = 3.0..=400.0;
+}
+
+impl Default for Options {
+    /// A handle of one vertex pulls out a spike, so the patch has two rings; r = 6 is the paper's stiffest color.
+    fn default() -> Options {
+        Options {
+            rigidity: 6,
+            brush_mode: BrushMode::Set,
+            brush_radius_px: 36.0,
+            patch_rings: 2,
+            select_shape: SelectShape::Box,
+            select_through: true,
+        }
+    }
+}

@@ -1,0 +1,105 @@
+//! The surface as it is on screen, ready to be asked what is under the pointer.
+
+use std::sync::Arc;
+
+use glam::{Vec2, Vec3};
+use pliant_geometry::{Bvh, Ray, SurfaceDistance};
+use pliant_solver::VertexId;
+
+use super::View;
+use crate::document::Model;
+use crate::viewport::SurfaceFrame;
+
+/// What a ray met first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pick {
+    /// Triangle that was hit.
+    pub triangle: u32,
+    /// Its corner nearest to the point.
+    pub vertex: VertexId,
+    /// The point, view space.
+    pub position: Vec3,
+    /// Normal of the surface there, unit length.
+    pub normal: Vec3,
+}
+
+/// Hierarchy and adjacency for picking on a moving surface. The hierarchy is refitted when it is next asked after the
+/// surface moved, so that nothing is spent while nobody points.
+pub struct Surface {
+    triangles: Arc<[[u32; 3]]>,
+    frame: Arc<SurfaceFrame>,
+    bvh: Bvh,
+    bvh_is_current: bool,
+    distance: SurfaceDistance,
+}
+
+impl Surface {
+    /// Builds the hierarchy. O(n log n).
+    pub fn new(model: &Model, frame: Arc<SurfaceFrame>) -> Surface {
+        Surface {
+            bvh: Bvh::new(&frame.positions, &model.triangles),
+            bvh_is_current: true,
+            distance: SurfaceDistance::new(frame.positions.len(), &model.triangles),
+            triangles: model.triangles.clone(),
+            frame,
+        }
+    }
+
+    /// The surface on screen.
+    pub fn frame(&self) -> &Arc<SurfaceFrame> {
+        &self.frame
+    }
+
+    /// Takes over new positions of the same surface.
+    pub fn set_frame(&mut self, frame: Arc<SurfaceFrame>) {
+        self.frame = frame;
+        self.bvh_is_current = false;
+    }
+
+    /// What lies under a pixel.
+    pub fn pick(&mut self, px: Vec2, view: &View) -> Option<Pick> {
+        self.refit();
+        let ray = view.camera.ray(px, view.size);
+        let hit = self.bvh.cast(ray, &self.frame.positions, &self.triangles)?;
+        let corners = self.triangles[hit.triangle as usize];
+        let weights = hit.barycentric;
+        let nearest = (0..3).max_by(|&a, &b| weights[a].total_cmp(&weights[b])).unwrap_or(0);
+        let blend = |of: &[Vec3]| (0..3).map(|c| of[corners[c] as usize] * weights[c]).sum::<Vec3>();
+        Some(Pick {
+            triangle: hit.triangle,
+            vertex: VertexId(corners[nearest]),
+            position: blend(&self.frame.positions),
+            normal: blend(&self.frame.normals).normalize_or(Vec3::Y),
+        })
+    }
+
+    /// Whether nothing hides a vertex from the eye.
+    pub fn is_visible(&mut self, v: VertexId, view: &View) -> bool {
+        self.refit();
+        let position = self.frame.positions[v.index()];
+        let Some((px, _)) = view.camera.project(position, view.size) else {
+            return false;
+        };
+        let ray = view.camera.ray(px, view.size);
+        let along = (position - ray.origin).dot(ray.direction) / ray.direction.length_squared();
+        // Its own faces are at exactly this distance; a thousandth of the way is nearer than any other sheet (by eye).
+        !self.bvh.is_blocked(
+            Ray { origin: ray.origin, direction: ray.direction },
+            along - 1e-3 * along.abs(),
+            &self.frame.positions,
+            &self.triangles,
+        )
+    }
+
+    /// Vertices within `radius` of a picked point along the surface, with their distance.
+    pub fn within(&mut self, pick: &Pick, radius: f32) -> Vec<(u32, f32)> {
+        self.distance.within(&self.frame.positions, &self.triangles, pick.triangle, pick.position, radius)
+    }
+
+    fn refit(&mut self) {
+        if !self.bvh_is_current {
+            self.bvh.refit(&self.frame.positions, &self.triangles);
+            self.bvh_is_current = true;
+        }
+    }
+}

@@ -1,0 +1,127 @@
+//! The words that tools and window share.
+
+use glam::Vec2;
+
+use super::{Options, Surface};
+use crate::document::{Command, Document};
+use crate::viewport::{Camera, Dot, Line};
+
+/// Keys held while the pointer acts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Modifiers {
+    /// Constrain, add, smooth.
+    pub shift: bool,
+    /// Snap, remove, softer. Command on a Mac.
+    pub ctrl: bool,
+}
+
+/// Where the pointer is, in points from the viewport's top left.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pointer {
+    /// Position, y down.
+    pub px: Vec2,
+    /// Keys held.
+    pub modifiers: Modifiers,
+}
+
+/// Keys that mean something to every tool.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ToolKey {
+    /// Take back what is under way.
+    Escape,
+    /// Remove what is active or under the pointer.
+    Delete,
+    /// Take over the r under the pointer.
+    Eyedropper,
+}
+
+/// What happens to a tool. Press, drag and release are of the primary button.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Input {
+    /// The pointer moved with no button down.
+    Hover(Pointer),
+    /// The pointer left the viewport.
+    Leave,
+    /// Button down.
+    Press(Pointer),
+    /// The pointer moved with the button down.
+    Drag(Pointer),
+    /// Button up.
+    Release(Pointer),
+    /// A key.
+    Key(ToolKey),
+}
+
+/// Camera and viewport size in points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct View {
+    /// The eye.
+    pub camera: Camera,
+    /// Width and height.
+    pub size: Vec2,
+}
+
+/// What a tool may look at.
+pub struct Context<'a> {
+    /// The truth.
+    pub document: &'a Document,
+    /// The eye.
+    pub view: View,
+    /// The surface as it is on screen, for picking.
+    pub surface: &'a mut Surface,
+    /// Settings.
+    pub options: &'a Options,
+}
+
+/// What a tool wants done.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Reaction {
+    /// In this order.
+    pub commands: Vec<Command>,
+    /// r to take over as the current one.
+    pub rigidity: Option<u16>,
+}
+
+impl From<Vec<Command>> for Reaction {
+    fn from(commands: Vec<Command>) -> Reaction {
+        Reaction { commands, rigidity: None }
+    }
+}
+
+/// What a tool draws over the surface.
+#[derive(Clone, Debug, Default)]
+pub struct Marks {
+    /// Dots in view space.
+    pub dots: Vec<Dot>,
+    /// Lines in view space.
+    pub lines: Vec<Line>,
+    /// A closed outline on screen, in points (box, lasso).
+    pub outline: Vec<Vec2>,
+}
+
+/// Shape of the mouse pointer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cursor {
+    /// An arrow.
+    Arrow,
+    /// A cross: clicks act exactly here.
+    Cross,
+    /// An open hand: can be taken.
+    Grab,
+    /// A closed hand: is being dragged.
+    Grabbing,
+}
+
+/// A state machine from input to commands.
+pub trait Tool: Send {
+    /// Advances the state.
+    fn handle(&mut self, input: Input, context: &mut Context<'_>) -> Reaction;
+    /// What the mouse does now, for the hint line.
+    fn hint(&self, context: &Context<'_>) -> String;
+    /// What to draw now.
+    fn marks(&self, context: &Context<'_>) -> Marks;
+    /// Shape of the pointer now.
+    fn cursor(&self) -> Cursor;
+    /// Whether a drag or stroke is under way.
+    fn is_active(&self) -> bool;
+}
