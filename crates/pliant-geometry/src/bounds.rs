@@ -11,18 +11,12 @@ pub(crate) struct Bounds {
 
 impl Bounds {
     /// Contains nothing and overlaps nothing.
-    pub(crate) const EMPTY: Bounds = Bounds {
-        min: Vec3::INFINITY,
-        max: Vec3::NEG_INFINITY,
-    };
+    pub(crate) const EMPTY: Bounds = Bounds { min: Vec3::INFINITY, max: Vec3::NEG_INFINITY };
 
     /// The smallest box around three points.
     pub(crate) fn around(corners: [Vec3; 3]) -> Bounds {
         let [a, b, c] = corners;
-        Bounds {
-            min: a.min(b).min(c),
-            max: a.max(b).max(c),
-        }
+        Bounds { min: a.min(b).min(c), max: a.max(b).max(c) }
     }
 
     /// A box around three points in `f64`, rounded outwards so that it surely contains them.
@@ -30,18 +24,12 @@ impl Bounds {
         let [a, b, c] = corners;
         let low = a.min(b).min(c).to_array().map(rounded_down);
         let high = a.max(b).max(c).to_array().map(|x| -rounded_down(-x));
-        Bounds {
-            min: Vec3::from(low),
-            max: Vec3::from(high),
-        }
+        Bounds { min: Vec3::from(low), max: Vec3::from(high) }
     }
 
     /// The smallest box that contains both.
     pub(crate) fn union(self, other: Bounds) -> Bounds {
-        Bounds {
-            min: self.min.min(other.min),
-            max: self.max.max(other.max),
-        }
+        Bounds { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 
     /// Whether the closed boxes have a point in common.
@@ -52,22 +40,14 @@ impl Bounds {
     /// Middle of the box; zero for an empty one, so that absent triangles sort somewhere harmless.
     pub(crate) fn center(&self) -> Vec3 {
         let center = self.min * 0.5 + self.max * 0.5;
-        if center.is_finite() {
-            center
-        } else {
-            Vec3::ZERO
-        }
+        if center.is_finite() { center } else { Vec3::ZERO }
     }
 }
 
 /// The largest `f32` not above `x`.
 fn rounded_down(x: f64) -> f32 {
     let nearest = x as f32;
-    if f64::from(nearest) > x {
-        nearest.next_down()
-    } else {
-        nearest
-    }
+    if f64::from(nearest) > x { nearest.next_down() } else { nearest }
 }
 
 /// The corners of a triangle, or `None` when it counts as absent: a vertex past the end or a position that is not finite.
@@ -92,19 +72,13 @@ mod tests {
     fn boxes_of_f64_points_contain_them() {
         for x in [0.1, -0.1, 1.0 / 3.0, 1e300, -1e300, 1e-300, 16_777_217.0] {
             let b = Bounds::around_f64([DVec3::splat(x); 3]);
-            assert!(
-                f64::from(b.min.x) <= x && x <= f64::from(b.max.x),
-                "{x}: {b:?}"
-            );
+            assert!(f64::from(b.min.x) <= x && x <= f64::from(b.max.x), "{x}: {b:?}");
         }
     }
 
     #[test]
     fn empty_boxes_overlap_nothing() {
-        let unit = Bounds {
-            min: Vec3::ZERO,
-            max: Vec3::ONE,
-        };
+        let unit = Bounds { min: Vec3::ZERO, max: Vec3::ONE };
         assert!(!Bounds::EMPTY.overlaps(&unit) && !unit.overlaps(&Bounds::EMPTY));
         assert_eq!(Bounds::EMPTY.union(unit), unit);
     }

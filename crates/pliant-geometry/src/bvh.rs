@@ -18,22 +18,13 @@ pub struct Bvh {
 impl Bvh {
     /// Builds the hierarchy. O(n log n), parallel.
     pub fn new(positions: &[Vec3], triangles: &[[u32; 3]]) -> Bvh {
-        let boxes: Vec<Bounds> = triangles
-            .par_iter()
-            .map(|&t| bounds_of(positions, t))
-            .collect();
-        Bvh {
-            tree: Tree::new(&boxes),
-        }
+        let boxes: Vec<Bounds> = triangles.par_iter().map(|&t| bounds_of(positions, t)).collect();
+        Bvh { tree: Tree::new(&boxes) }
     }
 
     /// Same triangles, new positions. O(n), no allocation.
     pub fn refit(&mut self, positions: &[Vec3], triangles: &[[u32; 3]]) {
-        self.tree.refit(|item| {
-            triangles
-                .get(item as usize)
-                .map_or(Bounds::EMPTY, |&t| bounds_of(positions, t))
-        });
+        self.tree.refit(|item| triangles.get(item as usize).map_or(Bounds::EMPTY, |&t| bounds_of(positions, t)));
     }
 
     /// Nearest triangle met from either side; of several at one distance, the one with the lowest number.
@@ -48,14 +39,10 @@ impl Bvh {
                 continue;
             }
             match self.tree.node(node) {
-                Node::Inner(children) => {
-                    self.push_near_last(&prepared, limit, children, &mut stack)
-                }
+                Node::Inner(children) => self.push_near_last(&prepared, limit, children, &mut stack),
                 Node::Leaf(items) => {
                     for &item in items {
-                        let Some((distance, weights)) =
-                            meets(&prepared, item, positions, triangles)
-                        else {
+                        let Some((distance, weights)) = meets(&prepared, item, positions, triangles) else {
                             continue;
                         };
                         if best.is_none_or(|(d, i, _)| (distance, item) < (d, i)) {
@@ -74,13 +61,7 @@ impl Bvh {
 
     /// Whether anything is met at a distance less than `max_distance` (in directions). To ask whether a point is hidden,
     /// cast from the eye towards it and stop a little short of it, since the point's own triangles count.
-    pub fn is_blocked(
-        &self,
-        ray: Ray,
-        max_distance: f32,
-        positions: &[Vec3],
-        triangles: &[[u32; 3]],
-    ) -> bool {
+    pub fn is_blocked(&self, ray: Ray, max_distance: f32, positions: &[Vec3], triangles: &[[u32; 3]]) -> bool {
         let Some(prepared) = PreparedRay::new(ray) else {
             return false;
         };
@@ -95,11 +76,7 @@ impl Bvh {
                 Node::Inner(children) => stack.extend(children),
                 Node::Leaf(items) => {
                     let met = |&item: &u32| meets(&prepared, item, positions, triangles);
-                    if items
-                        .iter()
-                        .filter_map(met)
-                        .any(|(distance, _)| distance < limit)
-                    {
+                    if items.iter().filter_map(met).any(|(distance, _)| distance < limit) {
                         return true;
                     }
                 }
@@ -109,13 +86,7 @@ impl Bvh {
     }
 
     /// Pushes the children that the ray enters, the nearer one on top.
-    fn push_near_last(
-        &self,
-        ray: &PreparedRay,
-        limit: f64,
-        children: [usize; 2],
-        stack: &mut NodeStack,
-    ) {
+    fn push_near_last(&self, ray: &PreparedRay, limit: f64, children: [usize; 2], stack: &mut NodeStack) {
         match children.map(|child| ray.enters(self.tree.bounds(child), limit)) {
             [Some(left), Some(right)] if left < right => stack.extend([children[1], children[0]]),
             [Some(_), Some(_)] => stack.extend(children),
@@ -130,12 +101,7 @@ fn bounds_of(positions: &[Vec3], triangle: [u32; 3]) -> Bounds {
     corners(positions, triangle).map_or(Bounds::EMPTY, Bounds::around)
 }
 
-fn meets(
-    ray: &PreparedRay,
-    item: u32,
-    positions: &[Vec3],
-    triangles: &[[u32; 3]],
-) -> Option<(f64, [f64; 3])> {
+fn meets(ray: &PreparedRay, item: u32, positions: &[Vec3], triangles: &[[u32; 3]]) -> Option<(f64, [f64; 3])> {
     ray.meets(corners(positions, *triangles.get(item as usize)?)?)
 }
 
@@ -147,37 +113,23 @@ mod tests {
     /// What every ray meets, asked triangle by triangle.
     fn brute_force(ray: Ray, positions: &[Vec3], triangles: &[[u32; 3]]) -> Option<(u32, f32)> {
         let ray = PreparedRay::new(ray)?;
-        let hits = (0..triangles.len() as u32)
-            .filter_map(|i| Some((meets(&ray, i, positions, triangles)?.0, i)));
-        hits.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))
-            .map(|(d, i)| (i, d as f32))
+        let hits = (0..triangles.len() as u32).filter_map(|i| Some((meets(&ray, i, positions, triangles)?.0, i)));
+        hits.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))).map(|(d, i)| (i, d as f32))
     }
 
     fn check_rays(bvh: &Bvh, positions: &[Vec3], triangles: &[[u32; 3]], noise: &mut Noise) {
         let mut n_hits = 0;
         for i in 0..400 {
-            let ray = Ray {
-                origin: noise.point() * 2.0,
-                direction: noise.point() - Vec3::splat(0.1),
-            };
-            let got = bvh
-                .cast(ray, positions, triangles)
-                .map(|h| (h.triangle, h.distance));
+            let ray = Ray { origin: noise.point() * 2.0, direction: noise.point() - Vec3::splat(0.1) };
+            let got = bvh.cast(ray, positions, triangles).map(|h| (h.triangle, h.distance));
             let expected = brute_force(ray, positions, triangles);
             assert_eq!(got, expected, "ray {i} {ray:?}");
             n_hits += usize::from(got.is_some());
             let limit = noise.number() * 3.0;
             let expected = expected.is_some_and(|(_, d)| d < limit);
-            assert_eq!(
-                bvh.is_blocked(ray, limit, positions, triangles),
-                expected,
-                "ray {i} {ray:?} within {limit}"
-            );
+            assert_eq!(bvh.is_blocked(ray, limit, positions, triangles), expected, "ray {i} {ray:?} within {limit}");
         }
-        assert!(
-            triangles.len() < 50 || n_hits > 20,
-            "only {n_hits} of 400 rays met anything"
-        );
+        assert!(triangles.len() < 50 || n_hits > 20, "only {n_hits} of 400 rays met anything");
     }
 
     #[test]
@@ -201,13 +153,8 @@ mod tests {
         let triangles = [[0, 1, 2]];
         let bvh = Bvh::new(&positions, &triangles);
         for side in [1.0, -1.0] {
-            let ray = Ray {
-                origin: Vec3::new(0.2, 0.3, side),
-                direction: Vec3::new(0.0, 0.0, -2.0 * side),
-            };
-            let hit = bvh
-                .cast(ray, &positions, &triangles)
-                .expect("the triangle is straight ahead");
+            let ray = Ray { origin: Vec3::new(0.2, 0.3, side), direction: Vec3::new(0.0, 0.0, -2.0 * side) };
+            let hit = bvh.cast(ray, &positions, &triangles).expect("the triangle is straight ahead");
             assert_eq!(hit.distance, 0.5);
             assert_eq!(hit.nearest_vertex(&triangles), 0);
             assert!(hit.point(&positions, &triangles).distance(ray.at(0.5)) < 1e-6);
@@ -227,13 +174,8 @@ mod tests {
         ];
         let triangles = [[0, 1, 2], [3, 4, 5]];
         let bvh = Bvh::new(&positions, &triangles);
-        let ray = Ray {
-            origin: Vec3::new(-1.0, 0.25, 0.0),
-            direction: Vec3::X,
-        };
-        let hit = bvh
-            .cast(ray, &positions, &triangles)
-            .expect("the wall is ahead");
+        let ray = Ray { origin: Vec3::new(-1.0, 0.25, 0.0), direction: Vec3::X };
+        let hit = bvh.cast(ray, &positions, &triangles).expect("the wall is ahead");
         assert_eq!((hit.triangle, hit.distance), (1, 2.0));
     }
 
@@ -245,26 +187,15 @@ mod tests {
         let mut positions = vec![center];
         positions.extend((0..n).map(|i| {
             let angle = i as f32 / n as f32 * std::f32::consts::TAU;
-            center
-                + Vec3::new(
-                    angle.cos(),
-                    angle.sin(),
-                    0.37 * angle.cos() - 0.2 * angle.sin(),
-                )
+            center + Vec3::new(angle.cos(), angle.sin(), 0.37 * angle.cos() - 0.2 * angle.sin())
         }));
         let triangles: Vec<[u32; 3]> = (0..n).map(|i| [0, 1 + i, 1 + (i + 1) % n]).collect();
         let bvh = Bvh::new(&positions, &triangles);
         for i in 0..=n as usize {
             let target = positions[0].lerp(positions[i], 0.7);
             let origin = Vec3::new(0.9, -0.8, 3.0);
-            let ray = Ray {
-                origin,
-                direction: target - origin,
-            };
-            assert!(
-                bvh.cast(ray, &positions, &triangles).is_some(),
-                "towards edge {i}"
-            );
+            let ray = Ray { origin, direction: target - origin };
+            assert!(bvh.cast(ray, &positions, &triangles).is_some(), "towards edge {i}");
         }
     }
 
@@ -273,26 +204,11 @@ mod tests {
         let nan = Vec3::new(f32::NAN, 0.0, 0.0);
         let far = Vec3::splat(f32::MAX);
         let positions = [Vec3::ZERO, Vec3::X, Vec3::Y, nan, Vec3::INFINITY, far, -far];
-        let triangles = [
-            [0, 0, 0],
-            [0, 1, 1],
-            [0, 1, 3],
-            [0, 1, 4],
-            [0, 1, 99],
-            [5, 6, 5],
-            [5, 6, 1],
-            [0, 1, 2],
-        ];
+        let triangles = [[0, 0, 0], [0, 1, 1], [0, 1, 3], [0, 1, 4], [0, 1, 99], [5, 6, 5], [5, 6, 1], [0, 1, 2]];
         let mut bvh = Bvh::new(&positions, &triangles);
         bvh.refit(&positions, &triangles);
-        let ray = Ray {
-            origin: Vec3::new(0.2, 0.2, 1.0),
-            direction: -Vec3::Z,
-        };
-        assert_eq!(
-            bvh.cast(ray, &positions, &triangles).map(|h| h.triangle),
-            Some(7)
-        );
+        let ray = Ray { origin: Vec3::new(0.2, 0.2, 1.0), direction: -Vec3::Z };
+        assert_eq!(bvh.cast(ray, &positions, &triangles).map(|h| h.triangle), Some(7));
         for direction in [Vec3::ZERO, nan, Vec3::INFINITY] {
             let ray = Ray { direction, ..ray };
             assert_eq!(bvh.cast(ray, &positions, &triangles), None);

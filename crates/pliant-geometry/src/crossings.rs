@@ -16,10 +16,8 @@ use robust::{Coord3D, orient3d};
 
 /// Pairs of triangles without a common vertex that cross, lower number first, sorted.
 pub fn crossings(positions: &[DVec3], triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
-    let boxes: Vec<Bounds> = triangles
-        .par_iter()
-        .map(|&t| corners_f64(positions, t).map_or(Bounds::EMPTY, Bounds::around_f64))
-        .collect();
+    let boxes: Vec<Bounds> =
+        triangles.par_iter().map(|&t| corners_f64(positions, t).map_or(Bounds::EMPTY, Bounds::around_f64)).collect();
     let tree = Tree::new(&boxes);
     let crossed_by = |first: u32| {
         let mut found = Vec::new();
@@ -31,9 +29,7 @@ pub fn crossings(positions: &[DVec3], triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
             let wanted = second > first
                 && boxes[second as usize].overlaps(bounds)
                 && !share_a_vertex(triangles[first as usize], triangles[second as usize]);
-            let other = wanted
-                .then(|| corners_f64(positions, triangles[second as usize]))
-                .flatten();
+            let other = wanted.then(|| corners_f64(positions, triangles[second as usize])).flatten();
             if other.is_some_and(|other| cross(corners, other)) {
                 found.push([first, second]);
             }
@@ -41,11 +37,7 @@ pub fn crossings(positions: &[DVec3], triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
         found.sort_unstable();
         found
     };
-    (0..triangles.len() as u32)
-        .into_par_iter()
-        .with_min_len(64)
-        .flat_map_iter(crossed_by)
-        .collect()
+    (0..triangles.len() as u32).into_par_iter().with_min_len(64).flat_map_iter(crossed_by).collect()
 }
 
 fn share_a_vertex(a: [u32; 3], b: [u32; 3]) -> bool {
@@ -84,17 +76,8 @@ fn an_edge_pierces(a: [DVec3; 3], sides: [i8; 3], b: [DVec3; 3]) -> bool {
 
 /// On which side of the plane through three points a fourth one lies: -1, 0 or 1, exactly.
 fn side(plane: [DVec3; 3], point: DVec3) -> i8 {
-    let coord = |p: DVec3| Coord3D {
-        x: p.x,
-        y: p.y,
-        z: p.z,
-    };
-    let volume = orient3d(
-        coord(plane[0]),
-        coord(plane[1]),
-        coord(plane[2]),
-        coord(point),
-    );
+    let coord = |p: DVec3| Coord3D { x: p.x, y: p.y, z: p.z };
+    let volume = orient3d(coord(plane[0]), coord(plane[1]), coord(plane[2]), coord(point));
     i8::from(volume > 0.0) - i8::from(volume < 0.0)
 }
 
@@ -123,11 +106,7 @@ mod tests {
             let positions: Vec<DVec3> = positions.iter().map(|p| p.as_dvec3()).collect();
             let got = crossings(&positions, &triangles);
             assert_eq!(got, brute_force(&positions, &triangles), "{n} triangles");
-            assert!(
-                n < 700 || got.len() > 50,
-                "too few to mean anything: {}",
-                got.len()
-            );
+            assert!(n < 700 || got.len() > 50, "too few to mean anything: {}", got.len());
         }
     }
 
@@ -143,18 +122,11 @@ mod tests {
             all.extend(second.iter().map(|p| DVec3::new(p.x + shift, -p.z, p.y)));
             all
         };
-        assert_eq!(
-            crossings(&rings(1.0), &triangles),
-            Vec::<[u32; 2]>::new(),
-            "linked with a gap"
-        );
+        assert_eq!(crossings(&rings(1.0), &triangles), Vec::<[u32; 2]>::new(), "linked with a gap");
         positions = rings(0.30).clone();
         let overlapping = crossings(&positions, &triangles);
         assert!(overlapping.len() > 20, "{} pairs", overlapping.len());
-        assert!(
-            overlapping.iter().all(|&[a, b]| a < n * 2 && b >= n * 2),
-            "each pair takes one of either ring"
-        );
+        assert!(overlapping.iter().all(|&[a, b]| a < n * 2 && b >= n * 2), "each pair takes one of either ring");
         assert_eq!(overlapping, brute_force(&positions, &triangles));
     }
 
@@ -162,80 +134,25 @@ mod tests {
     fn touching_is_not_crossing() {
         let floor = [DVec3::ZERO, DVec3::X * 4.0, DVec3::Y * 4.0];
         let cases = [
-            (
-                "a vertex on the face",
-                [
-                    DVec3::new(1.0, 1.0, 0.0),
-                    DVec3::new(1.0, 1.0, 1.0),
-                    DVec3::new(2.0, 1.0, 1.0),
-                ],
-            ),
-            (
-                "an edge on the face",
-                [
-                    DVec3::new(1.0, 1.0, 0.0),
-                    DVec3::new(2.0, 1.0, 0.0),
-                    DVec3::new(1.0, 1.0, 1.0),
-                ],
-            ),
-            (
-                "in one plane",
-                [
-                    DVec3::new(1.0, 1.0, 0.0),
-                    DVec3::new(2.0, 1.0, 0.0),
-                    DVec3::new(1.0, 5.0, 0.0),
-                ],
-            ),
-            (
-                "an edge on an edge",
-                [
-                    DVec3::new(2.0, 0.0, -1.0),
-                    DVec3::new(2.0, 0.0, 1.0),
-                    DVec3::new(2.0, -3.0, 0.0),
-                ],
-            ),
-            (
-                "no area",
-                [
-                    DVec3::new(1.0, 1.0, -1.0),
-                    DVec3::new(1.0, 1.0, -1.0),
-                    DVec3::new(1.0, 1.0, -1.0),
-                ],
-            ),
+            ("a vertex on the face", [DVec3::new(1.0, 1.0, 0.0), DVec3::new(1.0, 1.0, 1.0), DVec3::new(2.0, 1.0, 1.0)]),
+            ("an edge on the face", [DVec3::new(1.0, 1.0, 0.0), DVec3::new(2.0, 1.0, 0.0), DVec3::new(1.0, 1.0, 1.0)]),
+            ("in one plane", [DVec3::new(1.0, 1.0, 0.0), DVec3::new(2.0, 1.0, 0.0), DVec3::new(1.0, 5.0, 0.0)]),
+            ("an edge on an edge", [DVec3::new(2.0, 0.0, -1.0), DVec3::new(2.0, 0.0, 1.0), DVec3::new(2.0, -3.0, 0.0)]),
+            ("no area", [DVec3::new(1.0, 1.0, -1.0), DVec3::new(1.0, 1.0, -1.0), DVec3::new(1.0, 1.0, -1.0)]),
         ];
         for (name, other) in cases {
             let positions: Vec<DVec3> = floor.into_iter().chain(other).collect();
-            assert_eq!(
-                crossings(&positions, &[[0, 1, 2], [3, 4, 5]]),
-                Vec::<[u32; 2]>::new(),
-                "{name}"
-            );
+            assert_eq!(crossings(&positions, &[[0, 1, 2], [3, 4, 5]]), Vec::<[u32; 2]>::new(), "{name}");
         }
-        let through = [
-            DVec3::new(1.0, 1.0, -1.0),
-            DVec3::new(1.0, 1.0, 1e-300),
-            DVec3::new(1.5, -9.0, -1.0),
-        ];
+        let through = [DVec3::new(1.0, 1.0, -1.0), DVec3::new(1.0, 1.0, 1e-300), DVec3::new(1.5, -9.0, -1.0)];
         let positions: Vec<DVec3> = floor.into_iter().chain(through).collect();
-        assert_eq!(
-            crossings(&positions, &[[0, 1, 2], [3, 4, 5]]),
-            [[0, 1]],
-            "by a hair"
-        );
+        assert_eq!(crossings(&positions, &[[0, 1, 2], [3, 4, 5]]), [[0, 1]], "by a hair");
     }
 
     #[test]
     fn neighbors_and_broken_triangles_are_left_out() {
         let nan = DVec3::splat(f64::NAN);
-        let positions = [
-            DVec3::ZERO,
-            DVec3::X,
-            DVec3::Y,
-            DVec3::Z,
-            nan,
-            DVec3::splat(1e308),
-            DVec3::splat(-1e308),
-        ];
+        let positions = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z, nan, DVec3::splat(1e308), DVec3::splat(-1e308)];
         let triangles = [[0, 1, 2], [0, 1, 3], [4, 5, 6], [5, 6, 3], [7, 8, 9]];
         assert_eq!(crossings(&positions, &triangles), Vec::<[u32; 2]>::new());
     }

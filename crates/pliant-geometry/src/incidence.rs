@@ -10,12 +10,7 @@ pub(crate) struct Incidence {
 impl Incidence {
     /// O(n). A triangle that names a vertex past the end is left out; one that names a vertex twice is listed once there.
     pub(crate) fn new(n_vertices: usize, triangles: &[[u32; 3]]) -> Incidence {
-        let present = || {
-            triangles
-                .iter()
-                .enumerate()
-                .filter(|(_, t)| t.iter().all(|&v| (v as usize) < n_vertices))
-        };
+        let present = || triangles.iter().enumerate().filter(|(_, t)| t.iter().all(|&v| (v as usize) < n_vertices));
         let mut starts = vec![0_u32; n_vertices + 1];
         for (_, triangle) in present() {
             distinct(*triangle).for_each(|v| starts[v as usize + 1] += 1);
@@ -31,10 +26,7 @@ impl Incidence {
                 next[v as usize] += 1;
             }
         }
-        Incidence {
-            starts,
-            triangles: around,
-        }
+        Incidence { starts, triangles: around }
     }
 
     /// Number of vertices.
@@ -49,9 +41,7 @@ impl Incidence {
 }
 
 fn distinct(triangle: [u32; 3]) -> impl Iterator<Item = u32> {
-    (0..3)
-        .filter(move |&i| !triangle[..i].contains(&triangle[i]))
-        .map(move |i| triangle[i])
+    (0..3).filter(move |&i| !triangle[..i].contains(&triangle[i])).map(move |i| triangle[i])
 }
 
 #[cfg(test)]

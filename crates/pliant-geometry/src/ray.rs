@@ -51,9 +51,7 @@ impl Hit {
     /// The point, from the triangle's corners: better than [`Ray::at`] when the ray comes from far away.
     pub fn point(&self, positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec3 {
         let corners = triangles[self.triangle as usize].map(|v| positions[v as usize]);
-        corners[0] * self.barycentric[0]
-            + corners[1] * self.barycentric[1]
-            + corners[2] * self.barycentric[2]
+        corners[0] * self.barycentric[0] + corners[1] * self.barycentric[1] + corners[2] * self.barycentric[2]
     }
 }
 
@@ -77,12 +75,7 @@ impl PreparedRay {
     pub(crate) fn new(ray: Ray) -> Option<PreparedRay> {
         let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
         let usable = origin.is_finite() && direction.is_finite() && direction != DVec3::ZERO;
-        usable.then(|| PreparedRay {
-            origin,
-            direction,
-            inverse: direction.recip(),
-            length: direction.length(),
-        })
+        usable.then(|| PreparedRay { origin, direction, inverse: direction.recip(), length: direction.length() })
     }
 
     /// Distance at which the ray enters the box (0 when it starts inside), if that is at most `limit`.

@@ -118,20 +118,14 @@ impl SurfaceDistance {
             mark.visits += 1;
             for i in 0..self.incidence.around(v as usize).len() {
                 let triangle = triangles.get(self.incidence.around(v as usize)[i] as usize);
-                let Some((ids, at)) = triangle.and_then(|&t| Some((t, corners(positions, t)?)))
-                else {
+                let Some((ids, at)) = triangle.and_then(|&t| Some((t, corners(positions, t)?))) else {
                     continue;
                 };
                 let corner = ids.iter().position(|&id| id == v).unwrap_or(0);
-                for (b, c) in [
-                    ((corner + 1) % 3, (corner + 2) % 3),
-                    ((corner + 2) % 3, (corner + 1) % 3),
-                ] {
-                    let lengths = [(corner, b), (corner, c), (b, c)]
-                        .map(|(i, j)| at[i].as_dvec3().distance(at[j].as_dvec3()));
-                    let through = self
-                        .visited(ids[b])
-                        .and_then(|known| across(lengths, distance, known));
+                for (b, c) in [((corner + 1) % 3, (corner + 2) % 3), ((corner + 2) % 3, (corner + 1) % 3)] {
+                    let lengths =
+                        [(corner, b), (corner, c), (b, c)].map(|(i, j)| at[i].as_dvec3().distance(at[j].as_dvec3()));
+                    let through = self.visited(ids[b]).and_then(|known| across(lengths, distance, known));
                     let reached = through.unwrap_or(distance + lengths[1]);
                     if reached <= radius || distance <= radius {
                         self.offer(ids[c], reached);
@@ -151,18 +145,10 @@ impl SurfaceDistance {
     fn offer(&mut self, v: u32, distance: f64) {
         let mark = &mut self.marks[v as usize];
         if mark.epoch != self.epoch {
-            *mark = Mark {
-                epoch: self.epoch,
-                visits: 0,
-                distance: f64::INFINITY,
-            };
+            *mark = Mark { epoch: self.epoch, visits: 0, distance: f64::INFINITY };
             self.touched.push(v);
         }
-        let worthwhile = if mark.visits > 0 {
-            mark.distance * (1.0 - WORTHWHILE)
-        } else {
-            mark.distance
-        };
+        let worthwhile = if mark.visits > 0 { mark.distance * (1.0 - WORTHWHILE) } else { mark.distance };
         if distance < worthwhile {
             mark.distance = distance;
             self.front.push(Reverse((OrderedDistance(distance), v)));
@@ -170,10 +156,7 @@ impl SurfaceDistance {
     }
 
     fn answer(&self, radius: f32) -> Vec<(u32, f32)> {
-        let found = self
-            .touched
-            .iter()
-            .map(|&v| (v, self.marks[v as usize].distance as f32));
+        let found = self.touched.iter().map(|&v| (v, self.marks[v as usize].distance as f32));
         let mut found: Vec<(u32, f32)> = found.filter(|&(_, d)| d <= radius).collect();
         found.sort_unstable_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)));
         found
@@ -185,14 +168,8 @@ impl SurfaceDistance {
 fn across([ab, ac, bc]: [f64; 3], from_a: f64, from_b: f64) -> Option<f64> {
     // A at the origin, B on the positive x axis, C above it, the source S below.
     let along = |a2: f64, b2: f64| (a2 - b2 + ab * ab) / (2.0 * ab);
-    let (cx, sx) = (
-        along(ac * ac, bc * bc),
-        along(from_a * from_a, from_b * from_b),
-    );
-    let (cy, sy) = (
-        (ac * ac - cx * cx).max(0.0).sqrt(),
-        -(from_a * from_a - sx * sx).max(0.0).sqrt(),
-    );
+    let (cx, sx) = (along(ac * ac, bc * bc), along(from_a * from_a, from_b * from_b));
+    let (cy, sy) = ((ac * ac - cx * cx).max(0.0).sqrt(), -(from_a * from_a - sx * sx).max(0.0).sqrt());
     let height = cy - sy;
     // Where the line from S to C meets AB. Without a height, or with |AB| = 0, this is NaN or infinite and refused.
     let crossing = sx + (cx - sx) * (-sy / height);

@@ -49,19 +49,11 @@ fn grid(rows: u32, columns: u32, wrap_rows: bool, wrap_columns: bool) -> Vec<[u3
 }
 
 /// A ring around the z axis.
-pub(crate) fn torus(
-    radius: f64,
-    tube: f64,
-    around: u32,
-    across: u32,
-) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+pub(crate) fn torus(radius: f64, tube: f64, around: u32, across: u32) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     let mut positions = Vec::new();
     for i in 0..around {
         for j in 0..across {
-            let (u, v) = (
-                TAU * f64::from(i) / f64::from(around),
-                TAU * f64::from(j) / f64::from(across),
-            );
+            let (u, v) = (TAU * f64::from(i) / f64::from(around), TAU * f64::from(j) / f64::from(across));
             let r = radius + tube * v.cos();
             positions.push(DVec3::new(r * u.cos(), r * u.sin(), tube * v.sin()));
         }
@@ -74,10 +66,7 @@ pub(crate) fn sphere(rows: u32, columns: u32) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     let mut positions = Vec::new();
     for i in 1..rows {
         for j in 0..columns {
-            let (u, v) = (
-                PI * f64::from(i) / f64::from(rows),
-                TAU * f64::from(j) / f64::from(columns),
-            );
+            let (u, v) = (PI * f64::from(i) / f64::from(rows), TAU * f64::from(j) / f64::from(columns));
             positions.push(DVec3::new(u.sin() * v.cos(), u.sin() * v.sin(), u.cos()));
         }
     }
@@ -101,11 +90,7 @@ pub(crate) fn square(n: u32, jitter: f32, noise: &mut Noise) -> (Vec<Vec3>, Vec<
             let inside = i > 0 && j > 0 && i + 1 < n && j + 1 < n;
             let moved = noise.point() * if inside { jitter } else { 0.0 };
             let cell = 1.0 / (n - 1) as f32;
-            positions.push(Vec3::new(
-                (i as f32 + moved.x) * cell,
-                (j as f32 + moved.y) * cell,
-                0.0,
-            ));
+            positions.push(Vec3::new((i as f32 + moved.x) * cell, (j as f32 + moved.y) * cell, 0.0));
         }
     }
     (positions, grid(n, n, false, false))

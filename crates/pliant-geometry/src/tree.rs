@@ -41,16 +41,9 @@ impl Tree {
         }
         let n_leaves = boxes.len().div_ceil(ITEMS_PER_LEAF).next_power_of_two();
         let mut items: Vec<u32> = (0..boxes.len() as u32).collect();
-        let leaves = Leaves {
-            n_items: boxes.len(),
-            n_leaves,
-        };
+        let leaves = Leaves { n_items: boxes.len(), n_leaves };
         sort_by_medians(&mut items, leaves, 0..n_leaves, boxes);
-        let mut tree = Tree {
-            items,
-            bounds: vec![Bounds::EMPTY; 2 * n_leaves - 1],
-            n_leaves,
-        };
+        let mut tree = Tree { items, bounds: vec![Bounds::EMPTY; 2 * n_leaves - 1], n_leaves };
         tree.refit(|item| boxes[item as usize]);
         tree
     }
@@ -60,23 +53,13 @@ impl Tree {
         let Some(first_leaf) = self.n_leaves.checked_sub(1) else {
             return;
         };
-        let leaves = Leaves {
-            n_items: self.items.len(),
-            n_leaves: self.n_leaves,
-        };
+        let leaves = Leaves { n_items: self.items.len(), n_leaves: self.n_leaves };
         let items = &self.items;
         let (inner, leaf_bounds) = self.bounds.split_at_mut(first_leaf);
-        leaf_bounds
-            .par_iter_mut()
-            .with_min_len(PARALLEL_ITEMS / ITEMS_PER_LEAF)
-            .enumerate()
-            .for_each(|(leaf, out)| {
-                let range = leaves.first_item(leaf)..leaves.first_item(leaf + 1);
-                *out = items[range]
-                    .iter()
-                    .map(|&item| bounds_of(item))
-                    .fold(Bounds::EMPTY, Bounds::union);
-            });
+        leaf_bounds.par_iter_mut().with_min_len(PARALLEL_ITEMS / ITEMS_PER_LEAF).enumerate().for_each(|(leaf, out)| {
+            let range = leaves.first_item(leaf)..leaves.first_item(leaf + 1);
+            *out = items[range].iter().map(|&item| bounds_of(item)).fold(Bounds::EMPTY, Bounds::union);
+        });
         for node in (0..inner.len()).rev() {
             self.bounds[node] = self.bounds[2 * node + 1].union(self.bounds[2 * node + 2]);
         }
@@ -98,10 +81,7 @@ impl Tree {
         if node < first_leaf {
             return Node::Inner([2 * node + 1, 2 * node + 2]);
         }
-        let leaves = Leaves {
-            n_items: self.items.len(),
-            n_leaves: self.n_leaves,
-        };
+        let leaves = Leaves { n_items: self.items.len(), n_leaves: self.n_leaves };
         let leaf = node - first_leaf;
         Node::Leaf(&self.items[leaves.first_item(leaf)..leaves.first_item(leaf + 1)])
     }
@@ -160,12 +140,7 @@ impl Leaves {
 
 /// Sorts `items`, which belong to the leaves `range`, so that each half of the leaves gets one side of the median along
 /// the longest axis. Recursion is as deep as the tree, which is balanced: at most 32.
-fn sort_by_medians(
-    items: &mut [u32],
-    leaves: Leaves,
-    range: std::ops::Range<usize>,
-    boxes: &[Bounds],
-) {
+fn sort_by_medians(items: &mut [u32], leaves: Leaves, range: std::ops::Range<usize>, boxes: &[Bounds]) {
     if range.len() <= 1 {
         return;
     }
@@ -202,12 +177,8 @@ mod tests {
     #[test]
     fn every_item_is_found_whatever_their_number() {
         for n in [0_usize, 1, 2, 3, 4, 5, 7, 16, 17, 100, 1025] {
-            let boxes: Vec<Bounds> = (0..n)
-                .map(|i| Bounds {
-                    min: Vec3::splat(i as f32),
-                    max: Vec3::splat(i as f32 + 0.5),
-                })
-                .collect();
+            let boxes: Vec<Bounds> =
+                (0..n).map(|i| Bounds { min: Vec3::splat(i as f32), max: Vec3::splat(i as f32 + 0.5) }).collect();
             let tree = Tree::new(&boxes);
             for (i, b) in boxes.iter().enumerate() {
                 let mut found = false;
@@ -219,13 +190,7 @@ mod tests {
 
     #[test]
     fn a_million_equal_boxes_make_a_balanced_tree() {
-        let boxes = vec![
-            Bounds {
-                min: Vec3::ZERO,
-                max: Vec3::ONE
-            };
-            1_000_000
-        ];
+        let boxes = vec![Bounds { min: Vec3::ZERO, max: Vec3::ONE }; 1_000_000];
         let mut n_found = 0;
         Tree::new(&boxes).for_each_near(&boxes[0], |_| n_found += 1);
         assert_eq!(n_found, 1_000_000);

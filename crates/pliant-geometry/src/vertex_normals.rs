@@ -18,30 +18,18 @@ pub struct VertexNormals {
 impl VertexNormals {
     /// O(n): which triangles meet at each vertex.
     pub fn new(n_vertices: usize, triangles: &[[u32; 3]]) -> VertexNormals {
-        VertexNormals {
-            incidence: Incidence::new(n_vertices, triangles),
-        }
+        VertexNormals { incidence: Incidence::new(n_vertices, triangles) }
     }
 
     /// Fills `out` with one unit vector a vertex. `triangles` as given to [`new`](Self::new). Where no triangle with an
     /// area meets, the normal is +y.
     pub fn compute(&self, positions: &[Vec3], triangles: &[[u32; 3]], out: &mut Vec<Vec3>) {
         out.resize(self.incidence.n_vertices(), Vec3::Y);
-        out.par_iter_mut()
-            .with_min_len(VERTICES_PER_TASK)
-            .enumerate()
-            .for_each(|(v, normal)| {
-                let around = self
-                    .incidence
-                    .around(v)
-                    .iter()
-                    .filter_map(|&t| triangles.get(t as usize));
-                let sum: DVec3 = around
-                    .filter_map(|&t| corners(positions, t))
-                    .map(doubled_area)
-                    .sum();
-                *normal = sum.try_normalize().map_or(Vec3::Y, |n| n.as_vec3());
-            });
+        out.par_iter_mut().with_min_len(VERTICES_PER_TASK).enumerate().for_each(|(v, normal)| {
+            let around = self.incidence.around(v).iter().filter_map(|&t| triangles.get(t as usize));
+            let sum: DVec3 = around.filter_map(|&t| corners(positions, t)).map(doubled_area).sum();
+            *normal = sum.try_normalize().map_or(Vec3::Y, |n| n.as_vec3());
+        });
     }
 }
 
@@ -62,23 +50,12 @@ mod tests {
             let (unit, triangles) = sphere(32, 64);
             let positions: Vec<Vec3> = unit.iter().map(|p| p.as_vec3() * scale).collect();
             let mut normals = Vec::new();
-            VertexNormals::new(positions.len(), &triangles).compute(
-                &positions,
-                &triangles,
-                &mut normals,
-            );
+            VertexNormals::new(positions.len(), &triangles).compute(&positions, &triangles, &mut normals);
             for (v, normal) in normals.iter().enumerate() {
                 let expected = unit[v].as_vec3();
                 // Cells of 5.6°: the area-weighted normal may lean by a small part of a cell.
-                assert!(
-                    normal.angle_between(expected) < 0.03,
-                    "vertex {v}: {normal} for {expected}"
-                );
-                assert!(
-                    (normal.length() - 1.0).abs() < 1e-5,
-                    "vertex {v}: length {}",
-                    normal.length()
-                );
+                assert!(normal.angle_between(expected) < 0.03, "vertex {v}: {normal} for {expected}");
+                assert!((normal.length() - 1.0).abs() < 1e-5, "vertex {v}: length {}", normal.length());
             }
         }
     }

@@ -5,9 +5,7 @@ use std::f32::consts::PI;
 fn nearest_triangle(positions: &[Vec3], triangles: &[[u32; 3]], point: Vec3) -> u32 {
     let center = |t: &[u32; 3]| t.iter().map(|&v| positions[v as usize]).sum::<Vec3>() / 3.0;
     let by_distance = |i: &u32| center(&triangles[*i as usize]).distance_squared(point);
-    (0..triangles.len() as u32)
-        .min_by(|a, b| by_distance(a).total_cmp(&by_distance(b)))
-        .expect("not empty")
+    (0..triangles.len() as u32).min_by(|a, b| by_distance(a).total_cmp(&by_distance(b))).expect("not empty")
 }
 
 #[test]
@@ -20,11 +18,7 @@ fn on_a_plane_distances_are_straight_lines_on_any_triangulation() {
         let source = nearest_triangle(&positions, &triangles, point);
         let radius = 0.35 * stretch;
         let mut distances = SurfaceDistance::new(positions.len(), &triangles);
-        let point = triangles[source as usize]
-            .iter()
-            .map(|&v| positions[v as usize])
-            .sum::<Vec3>()
-            / 3.0;
+        let point = triangles[source as usize].iter().map(|&v| positions[v as usize]).sum::<Vec3>() / 3.0;
         let found = distances.within(&positions, &triangles, source, point, radius);
         for &(v, got) in &found {
             let expected = positions[v as usize].distance(point);
@@ -33,15 +27,8 @@ fn on_a_plane_distances_are_straight_lines_on_any_triangulation() {
                 "vertex {v} at jitter {jitter}: got {got}, expected {expected}"
             );
         }
-        let n_expected = positions
-            .iter()
-            .filter(|p| p.distance(point) <= radius * 0.99)
-            .count();
-        assert!(
-            found.len() >= n_expected,
-            "jitter {jitter}: {} of {n_expected}",
-            found.len()
-        );
+        let n_expected = positions.iter().filter(|p| p.distance(point) <= radius * 0.99).count();
+        assert!(found.len() >= n_expected, "jitter {jitter}: {} of {n_expected}", found.len());
         assert!(found.is_sorted_by(|a, b| a.1 <= b.1), "nearest first");
     }
 }
@@ -58,10 +45,7 @@ fn on_a_sphere_distances_follow_great_circles() {
         assert_eq!(found.len(), positions.len(), "all of the sphere");
         for (u, got) in found {
             let expected = positions[u as usize].angle_between(positions[v as usize]);
-            assert!(
-                (got - expected).abs() <= 0.03 * PI,
-                "vertex {u} from {v}: got {got}, expected {expected}"
-            );
+            assert!((got - expected).abs() <= 0.03 * PI, "vertex {u} from {v}: got {got}, expected {expected}");
         }
     }
 }
@@ -80,29 +64,14 @@ fn a_sheet_near_in_space_but_far_on_the_surface_is_not_reached() {
     let mut apart = SurfaceDistance::new(positions.len(), &triangles);
     let found = apart.within(&positions, &triangles, source, point, 100.0);
     assert_eq!(found.len(), n as usize, "one sheet and all of it");
-    assert!(
-        found.iter().all(|&(v, _)| v < n),
-        "no vertex of the other sheet"
-    );
+    assert!(found.iter().all(|&(v, _)| v < n), "no vertex of the other sheet");
 
     let border: Vec<u32> = (0..21).map(|j| 20 * 21 + j).collect();
-    triangles.extend(
-        border
-            .windows(2)
-            .flat_map(|w| [[w[0], w[1], w[0] + n], [w[1], w[1] + n, w[0] + n]]),
-    );
+    triangles.extend(border.windows(2).flat_map(|w| [[w[0], w[1], w[0] + n], [w[1], w[1] + n, w[0] + n]]));
     let mut joined = SurfaceDistance::new(positions.len(), &triangles);
-    assert!(
-        joined
-            .within(&positions, &triangles, source, point, 0.85)
-            .iter()
-            .all(|&(v, _)| v < n)
-    );
+    assert!(joined.within(&positions, &triangles, source, point, 0.85).iter().all(|&(v, _)| v < n));
     let found = joined.within(&positions, &triangles, source, point, 2.5);
-    let above = found
-        .iter()
-        .find(|&&(v, _)| v == n + 2 * 21 + 10)
-        .expect("reached around the border");
+    let above = found.iter().find(|&&(v, _)| v == n + 2 * 21 + 10).expect("reached around the border");
     // 0.9 to the border, 0.01 across and 0.9 back, give or take the jitter of one cell.
     assert!((above.1 - 1.81).abs() < 0.05, "got {}", above.1);
 }
@@ -115,26 +84,15 @@ fn questions_do_not_disturb_each_other() {
     for i in 0..40 {
         let source = i * 37 % triangles.len() as u32;
         let point = positions[triangles[source as usize][1] as usize];
-        let fresh = SurfaceDistance::new(positions.len(), &triangles)
-            .within(&positions, &triangles, source, point, 0.2);
-        assert_eq!(
-            used.within(&positions, &triangles, source, point, 0.2),
-            fresh,
-            "question {i}"
-        );
+        let fresh =
+            SurfaceDistance::new(positions.len(), &triangles).within(&positions, &triangles, source, point, 0.2);
+        assert_eq!(used.within(&positions, &triangles, source, point, 0.2), fresh, "question {i}");
     }
 }
 
 #[test]
 fn broken_surfaces_and_questions_give_what_can_be_reached() {
-    let positions = [
-        Vec3::ZERO,
-        Vec3::X,
-        Vec3::Y,
-        Vec3::NAN,
-        Vec3::ZERO,
-        Vec3::X * 2.0,
-    ];
+    let positions = [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::NAN, Vec3::ZERO, Vec3::X * 2.0];
     let triangles = [[0, 1, 2], [1, 2, 3], [0, 0, 4], [1, 5, 1], [2, 9, 1]];
     let mut distances = SurfaceDistance::new(positions.len(), &triangles);
     let found = distances.within(&positions, &triangles, 0, Vec3::ZERO, 5.0);
