@@ -1,0 +1,178 @@
+//! What can go wrong, each as one line: which file, where in it, what to do.
+
+use std::fmt;
+use std::path::PathBuf;
+
+/// Why a file was not opened.
+#[derive(Debug, thiserror::Error)]
+pub enum OpenError {
+    /// The file system refused.
+    #[error("{}: cannot be read: {source}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// The name ends like no format that is known.
+    #[error("{}: not a mesh file by its name; OBJ (.obj), glTF (.gltf) and GLB (.glb) can be opened", path.display())]
+    UnknownFormat {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The content is not usable.
+    #[error("{}: {fault}", path.display())]
+    Content {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        fault: Fault,
+    },
+}
+
+/// What is wrong with the content of a file.
+#[derive(Debug, thiserror::Error)]
+pub enum Fault {
+    /// Something at a place is not as the format demands.
+    #[error("{place}: {problem}")]
+    Malformed {
+        /// Where: a line, an accessor, a vertex.
+        place: String,
+        /// What is wrong there.
+        problem: String,
+    },
+    /// The file does not start as its format demands, or breaks off.
+    #[error("{0}")]
+    Container(String),
+    /// A format was read without error but holds no triangle.
+    #[error("holds no faces: there is no surface to deform")]
+    Empty,
+    /// More than the program is willing to hold.
+    #[error("{found} {what} are more than the limit of {limit}")]
+    Budget {
+        /// What was counted.
+        what: &'static str,
+        /// How many the file has or claims.
+        found: u64,
+        /// How many are accepted.
+        limit: u64,
+    },
+    /// A way of storing geometry that is not read.
+    #[error("uses the glTF extension {extension}, which is not supported: save it without {what} and open that")]
+    Extension {
+        /// Name of the extension.
+        extension: &'static str,
+        /// What to switch off in the program that wrote it.
+        what: &'static str,
+    },
+    /// A regular file was expected.
+    #[error("is not a regular file")]
+    NotAFile,
+    /// One rigidity per vertex was expected.
+    #[error("holds {found} rigidities, the mesh has {expected} vertices: one per vertex is needed")]
+    RigidityCount {
+        /// Entries in the file.
+        found: usize,
+        /// File vertices of the mesh.
+        expected: usize,
+    },
+    /// A rigidity that is no whole number from 1 to 1000.
+    #[error("entry {entry} is {value}: a rigidity is a whole number from 1 to 1000")]
+    Rigidity {
+        /// Index of the entry, from 0.
+        entry: usize,
+        /// The value found, as text.
+        value: String,
+    },
+    /// A mesh file was given for its rigidity and carries none.
+    #[error("carries no rigidity (no _RIGIDITY attribute and no sidecar)")]
+    NoRigidity,
+}
+
+impl Fault {
+    pub(crate) fn at(place: impl Into<String>, problem: impl Into<String>) -> Fault {
+        Fault::Malformed { place: place.into(), problem: problem.into() }
+    }
+
+    pub(crate) fn in_file(self, path: impl Into<PathBuf>) -> OpenError {
+        OpenError::Content { path: path.into(), fault: self }
+    }
+}
+
+/// Why a file was not saved. Nothing was written or touched.
+#[derive(Debug, thiserror::Error)]
+pub enum SaveError {
+    /// The file system refused.
+    #[error("{}: cannot be written: {source}", path.display())]
+    Write {
+        /// The target.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// The name ends like no format that can be written.
+    #[error("{}: not a mesh file by its name; use .obj, .gltf or .glb", path.display())]
+    UnknownFormat {
+        /// The target.
+        path: PathBuf,
+    },
+    /// The number of surface points or rigidities does not fit the mesh.
+    #[error("{}: not saved: {found} {what} were given for {expected} surface points", path.display())]
+    Count {
+        /// The target.
+        path: PathBuf,
+        /// What was counted.
+        what: &'static str,
+        /// How many were given.
+        found: usize,
+        /// How many the mesh has.
+        expected: usize,
+    },
+    /// A coordinate that is not finite, or not in the range of the file's numbers.
+    #[error("{}: not saved: the position of vertex {vertex} is not finite or too large for the format", path.display())]
+    NotFinite {
+        /// The target.
+        path: PathBuf,
+        /// File vertex, from 0.
+        vertex: usize,
+    },
+    /// A rigidity outside 1 to 1000.
+    #[error("{}: not saved: rigidity {value} of surface point {point} is not from 1 to 1000", path.display())]
+    Rigidity {
+        /// The target.
+        path: PathBuf,
+        /// Surface point, from 0.
+        point: usize,
+        /// The value given.
+        value: u16,
+    },
+    /// The format cannot hold that much.
+    #[error("{}: not saved: {bytes} bytes are more than a GLB file can hold (4 GiB)", path.display())]
+    TooLarge {
+        /// The target.
+        path: PathBuf,
+        /// Bytes needed.
+        bytes: u64,
+    },
+    /// A document that could not be encoded.
+    #[error("{}: not saved: {reason}", path.display())]
+    Encode {
+        /// The target.
+        path: PathBuf,
+        /// Why.
+        reason: String,
+    },
+}
+
+/// Something a person should know about a file that was opened or saved: one sentence, printed by `Display`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Warning(
+    /// The sentence.
+    pub String,
+);
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}

@@ -1,0 +1,206 @@
+//! Accessors: typed lists inside buffers, checked before they are read.
+
+use super::{GltfSource, buffers::Buffer, container::Container, json};
+use crate::{Fault, budget};
+use serde_json::Value;
+
+/// A document with its bytes.
+#[derive(Clone, Copy)]
+pub(super) struct Data<'a> {
+    pub(super) document: &'a Value,
+    pub(super) buffers: &'a [Buffer],
+    pub(super) container: &'a Container,
+}
+
+impl<'a> From<&'a GltfSource> for Data<'a> {
+    fn from(source: &'a GltfSource) -> Self {
+        Data { document: &source.document, buffers: &source.buffers, container: &source.container }
+    }
+}
+
+/// How one number is stored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Component {
+    I8,
+    U8,
+    I16,
+    U16,
+    U32,
+    F32,
+}
+
+impl Component {
+    fn of(code: u64) -> Option<Component> {
+        Some(match code {
+            5120 => Component::I8,
+            5121 => Component::U8,
+            5122 => Component::I16,
+            5123 => Component::U16,
+            5125 => Component::U32,
+            5126 => Component::F32,
+            _ => return None,
+        })
+    }
+
+    fn size(self) -> u64 {
+        match self {
+            Component::I8 | Component::U8 => 1,
+            Component::I16 | Component::U16 => 2,
+            Component::U32 | Component::F32 => 4,
+        }
+    }
+
+    /// The number at the start of `b`, with the divisor that normalization applies.
+    fn read(self, b: &[u8]) -> (f64, f64) {
+        match self {
+            Component::I8 => (f64::from(b[0] as i8), 127.0),
+            Component::U8 => (f64::from(b[0]), 255.0),
+            Component::I16 => (f64::from(i16::from_le_bytes([b[0], b[1]])), 32767.0),
+            Component::U16 => (f64::from(u16::from_le_bytes([b[0], b[1]])), 65535.0),
+            Component::U32 => (f64::from(u32::from_le_bytes([b[0], b[1], b[2], b[3]])), 4294967295.0),
+            Component::F32 => (f64::from(f32::from_le_bytes([b[0], b[1], b[2], b[3]])), 1.0),
+        }
+    }
+}
+
+/// Bytes that hold `count` elements, every one of them inside.
+struct Strided<'a> {
+    bytes: &'a [u8],
+    stride: usize,
+}
+
+/// A checked accessor: reading it cannot fail.
+pub(super) struct Accessor<'a> {
+    pub(super) component: Component,
+    /// Numbers in an element.
+    pub(super) width: usize,
+    pub(super) count: usize,
+    normalized: bool,
+    dense: Option<Strided<'a>>,
+    sparse: Option<(Vec<u32>, Strided<'a>)>,
+}
+
+impl<'a> Data<'a> {
+    /// Checks an accessor that `place` uses.
+    pub(super) fn accessor(self, index: usize) -> Result<Accessor<'a>, Fault> {
+        let place = format!("accessor {index}");
+        let accessors = json::list(self.document, "accessors")?;
+        let accessor = accessors
+            .get(index)
+            .ok_or_else(|| Fault::at(place.as_str(), format!("does not exist, the file has {}", accessors.len())))?;
+        let code = json::number(accessor, "componentType", &place)?.unwrap_or(0);
+        let component = Component::of(code)
+            .ok_or_else(|| Fault::at(place.as_str(), format!("component type {code} is not known")))?;
+        let width = match accessor.get("type").and_then(Value::as_str) {
+            Some("SCALAR") => 1,
+            Some("VEC2") => 2,
+            Some("VEC3") => 3,
+            Some("VEC4") => 4,
+            _ => return Err(Fault::at(place, "its type is not SCALAR, VEC2, VEC3 or VEC4")),
+        };
+        let count = json::number(accessor, "count", &place)?.unwrap_or(0);
+        budget::check("elements in an accessor", count, 3 * budget::TRIANGLES)?;
+        let size = component.size() * width;
+        let offset = json::number(accessor, "byteOffset", &place)?.unwrap_or(0);
+        let dense = match accessor.get("bufferView") {
+            None => None,
+            Some(_) => Some(self.strided(accessor, &place, offset, size, count)?),
+        };
+        let sparse = match accessor.get("sparse") {
+            None => None,
+            Some(sparse) => Some(self.sparse(sparse, &place, size, count)?),
+        };
+        let normalized = accessor.get("normalized") == Some(&Value::Bool(true));
+        Ok(Accessor { component, width: width as usize, count: count as usize, normalized, dense, sparse })
+    }
+
+    fn sparse(self, sparse: &Value, place: &str, size: u64, count: u64) -> Result<(Vec<u32>, Strided<'a>), Fault> {
+        let place = format!("{place}, sparse");
+        let n = json::number(sparse, "count", &place)?.unwrap_or(0);
+        if n > count {
+            return Err(Fault::at(place, format!("replaces {n} elements of {count}")));
+        }
+        let part = |key| sparse.get(key).ok_or_else(|| Fault::at(place.as_str(), format!("has no {key}")));
+        let (indices, values) = (part("indices")?, part("values")?);
+        let code = json::number(indices, "componentType", &place)?.unwrap_or(0);
+        let component = Component::of(code)
+            .filter(|c| matches!(c, Component::U8 | Component::U16 | Component::U32))
+            .ok_or_else(|| Fault::at(place.as_str(), format!("index type {code} is not unsigned")))?;
+        let offset = json::number(indices, "byteOffset", &place)?.unwrap_or(0);
+        let at = self.strided(indices, &place, offset, component.size(), n)?;
+        let offset = json::number(values, "byteOffset", &place)?.unwrap_or(0);
+        let values = self.strided(values, &place, offset, size, n)?;
+        let mut targets = Vec::with_capacity(n as usize);
+        for i in 0..n as usize {
+            let target = component.read(&at.bytes[i * at.stride..]).0 as u32;
+            if u64::from(target) >= count {
+                return Err(Fault::at(place, format!("replaces element {target} of {count}")));
+            }
+            targets.push(target);
+        }
+        Ok((targets, values))
+    }
+
+    /// The bytes of `count` elements of `size` bytes from `offset` in the view that `holder` names.
+    fn strided(self, holder: &Value, place: &str, offset: u64, size: u64, count: u64) -> Result<Strided<'a>, Fault> {
+        let views = json::list(self.document, "bufferViews")?;
+        let index = json::reference(holder, "bufferView", place, "view", views.len())?
+            .ok_or_else(|| Fault::at(place, "names no bufferView"))?;
+        let (view, view_place) = (&views[index], format!("bufferView {index}"));
+        let buffer = json::reference(view, "buffer", &view_place, "buffer", self.buffers.len())?
+            .ok_or_else(|| Fault::at(view_place.as_str(), "names no buffer"))?;
+        let bytes = self.buffers[buffer].bytes(self.container);
+        let start = json::number(view, "byteOffset", &view_place)?.unwrap_or(0);
+        let length = json::number(view, "byteLength", &view_place)?.unwrap_or(0);
+        let end = start.checked_add(length).filter(|&end| end <= bytes.len() as u64);
+        let view_bytes = end.map(|end| &bytes[start as usize..end as usize]).ok_or_else(|| {
+            Fault::at(view_place.as_str(), format!("reaches beyond its buffer of {} bytes", bytes.len()))
+        })?;
+        let stride = json::number(view, "byteStride", &view_place)?.unwrap_or(size);
+        if stride < size || stride > 252.max(size) {
+            let problem = format!("byteStride {stride} does not fit elements of {size} bytes");
+            return Err(Fault::at(view_place, problem));
+        }
+        let needed = match count {
+            0 => Some(offset),
+            _ => (count - 1).checked_mul(stride).and_then(|n| n.checked_add(size)).and_then(|n| n.checked_add(offset)),
+        };
+        if needed.is_none_or(|needed| needed > length) {
+            return Err(Fault::at(place, format!("reaches beyond bufferView {index} of {length} bytes")));
+        }
+        Ok(Strided { bytes: &view_bytes[offset as usize..], stride: stride as usize })
+    }
+}
+
+impl Accessor<'_> {
+    /// All numbers, element after element, normalized ones as fractions.
+    pub(super) fn numbers(&self) -> Vec<f64> {
+        let mut numbers = match &self.dense {
+            None => vec![0.0; self.count * self.width],
+            Some(dense) => {
+                let mut numbers = Vec::with_capacity(self.count * self.width);
+                for i in 0..self.count {
+                    self.push_element(&dense.bytes[i * dense.stride..], &mut numbers);
+                }
+                numbers
+            }
+        };
+        if let Some((targets, values)) = &self.sparse {
+            let mut element = Vec::with_capacity(self.width);
+            for (i, &target) in targets.iter().enumerate() {
+                element.clear();
+                self.push_element(&values.bytes[i * values.stride..], &mut element);
+                let at = target as usize * self.width;
+                numbers[at..at + self.width].copy_from_slice(&element);
+            }
+        }
+        numbers
+    }
+
+    fn push_element(&self, bytes: &[u8], out: &mut Vec<f64>) {
+        for k in 0..self.width {
+            let (number, divisor) = self.component.read(&bytes[k * self.component.size() as usize..]);
+            out.push(if self.normalized { (number / divisor).max(-1.0) } else { number });
+        }
+    }
+}

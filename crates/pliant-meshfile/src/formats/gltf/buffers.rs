@@ -1,0 +1,71 @@
+//! The bytes that accessors point into.
+
+use super::{base64, container::Container, json};
+use crate::{Fault, budget, files};
+use serde_json::Value;
+use std::path::Path;
+
+/// Where a buffer's bytes are.
+#[derive(Debug)]
+pub(super) enum Buffer {
+    /// The binary chunk of the GLB file.
+    Chunk,
+    /// A data URI, decoded.
+    Inline(Vec<u8>),
+    /// A file beside the model, read.
+    File(Vec<u8>),
+}
+
+impl Buffer {
+    pub(super) fn bytes<'a>(&'a self, container: &'a Container) -> &'a [u8] {
+        match self {
+            Buffer::Chunk => container.binary.as_deref().unwrap_or_default(),
+            Buffer::Inline(bytes) | Buffer::File(bytes) => bytes,
+        }
+    }
+}
+
+/// Loads every buffer of a document, together within the budget of one file.
+pub(super) fn load(document: &Value, container: &Container, folder: Option<&Path>) -> Result<Vec<Buffer>, Fault> {
+    let mut total = 0;
+    let mut buffers = Vec::new();
+    for (i, buffer) in json::list(document, "buffers")?.iter().enumerate() {
+        let place = format!("buffer {i}");
+        let length = json::number(buffer, "byteLength", &place)?.unwrap_or(0);
+        let loaded = load_one(buffer, i, container, folder, budget::FILE_BYTES - total)
+            .map_err(|problem| Fault::at(place.as_str(), problem))?;
+        let found = loaded.bytes(container).len() as u64;
+        if found < length {
+            return Err(Fault::at(place, format!("is cut off: it says {length} bytes, {found} are there")));
+        }
+        total += found;
+        budget::check("bytes in buffers", total, budget::FILE_BYTES)?;
+        buffers.push(loaded);
+    }
+    Ok(buffers)
+}
+
+fn load_one(
+    buffer: &Value,
+    index: usize,
+    container: &Container,
+    folder: Option<&Path>,
+    limit: u64,
+) -> Result<Buffer, String> {
+    let Some(uri) = buffer.get("uri") else {
+        return match container.binary {
+            Some(_) if index == 0 => Ok(Buffer::Chunk),
+            _ => Err("names no data".into()),
+        };
+    };
+    let uri = uri.as_str().ok_or("its URI is not text")?;
+    if let Some(data) = uri.strip_prefix("data:") {
+        let (_, data) = data.split_once(";base64,").ok_or("its data URI is not base64")?;
+        return base64::decode(data).map(Buffer::Inline).ok_or_else(|| "its data URI is not base64".into());
+    }
+    let shown = crate::rigidity::quoted(uri);
+    let reference = files::percent_decoded(uri).ok_or_else(|| format!("its URI {shown} is not text"))?;
+    files::read_beside(folder, &reference, limit)
+        .map(Buffer::File)
+        .map_err(|reason| format!("its file {shown} cannot be read: {reason}"))
+}

@@ -1,0 +1,197 @@
+//! A new glTF file of a mesh that came from elsewhere.
+//!
+//! One mesh, one list of vertices for all its primitives: the mesh's own vertices first and in their order, so that
+//! numbers given for them still hold, then the copies that corners with other attributes need.
+
+use super::container;
+use super::relocate::data_uri;
+use crate::formats::{Format, Output};
+use crate::shape::{Corner, Material, NONE, Shape};
+use crate::{SaveError, normals};
+use glam::{Vec2, Vec3};
+use serde_json::{Value, json};
+use std::collections::HashMap;
+use std::path::Path;
+
+/// Writes a document that depends on the shape alone.
+pub(crate) fn write(shape: &Shape, to: &Path) -> Result<Output, SaveError> {
+    let vertices = Vertices::of(shape);
+    let mut builder = Builder::default();
+    let attributes = attributes(shape, &vertices, &mut builder, to)?;
+    let mut primitives = Vec::new();
+    for part in &shape.parts {
+        let indices: Vec<u32> = vertices.triangles[part.triangles.clone()].iter().flatten().copied().collect();
+        if indices.is_empty() {
+            continue;
+        }
+        let indices = builder.indices(&indices);
+        let mut primitive = json!({"attributes": attributes, "indices": indices});
+        if let Some(material) = part.material {
+            primitive["material"] = material.into();
+        }
+        primitives.push(primitive);
+    }
+    let name = shape.parts.first().map_or("mesh", |part| part.name.as_str());
+    let mut document = json!({
+        "asset": {"version": "2.0", "generator": "Pliant"},
+        "scene": 0,
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0, "name": name}],
+        "meshes": [{"name": name, "primitives": primitives}],
+    });
+    if !shape.materials.is_empty() {
+        document["materials"] = shape.materials.iter().map(material).collect();
+    }
+    let glb = Format::of(to) == Some(Format::Glb);
+    let mut buffer = json!({"byteLength": builder.data.len()});
+    if !glb {
+        buffer["uri"] = data_uri("application/octet-stream", &builder.data).into();
+    }
+    document["accessors"] = builder.accessors.into();
+    document["bufferViews"] = builder.views.into();
+    document["buffers"] = json!([buffer]);
+    let json = serde_json::to_vec(&document)
+        .map_err(|error| SaveError::Encode { path: to.to_owned(), reason: error.to_string() })?;
+    let bytes = if glb {
+        container::glb(&json, Some(&builder.data), &[])
+            .map_err(|bytes| SaveError::TooLarge { path: to.to_owned(), bytes })?
+    } else {
+        json
+    };
+    Ok(Output { bytes, beside: Vec::new(), warnings: Vec::new() })
+}
+
+fn material(material: &Material) -> Value {
+    let mut value = json!({
+        "name": material.name,
+        "pbrMetallicRoughness": {
+            "baseColorFactor": material.base_color.map(|x| f64::from(x.clamp(0.0, 1.0))),
+            "metallicFactor": 0.0,
+        },
+    });
+    if material.base_color[3] < 1.0 {
+        value["alphaMode"] = "BLEND".into();
+    }
+    value
+}
+
+/// Vertices of the new file: which old vertex, texture coordinate and normal each one has.
+struct Vertices {
+    corners: Vec<Corner>,
+    triangles: Vec<[u32; 3]>,
+}
+
+impl Vertices {
+    fn of(shape: &Shape) -> Vertices {
+        let unused = |vertex| Corner { vertex, uv: NONE, normal: NONE };
+        let mut corners: Vec<Corner> = (0..shape.positions.len() as u32).map(unused).collect();
+        let mut taken = vec![false; corners.len()];
+        let mut copies: HashMap<Corner, u32> = HashMap::new();
+        let mut index_of = |corner: Corner| -> u32 {
+            let first = corner.vertex as usize;
+            if !std::mem::replace(&mut taken[first], true) {
+                corners[first] = corner;
+            }
+            if corners[first] == corner {
+                return corner.vertex;
+            }
+            *copies.entry(corner).or_insert_with(|| {
+                corners.push(corner);
+                corners.len() as u32 - 1
+            })
+        };
+        let triangles = shape.triangles.iter().map(|t| t.map(&mut index_of)).collect();
+        Vertices { corners, triangles }
+    }
+}
+
+fn attributes(shape: &Shape, vertices: &Vertices, builder: &mut Builder, to: &Path) -> Result<Value, SaveError> {
+    let mut positions = Vec::with_capacity(vertices.corners.len());
+    for corner in &vertices.corners {
+        let position = shape.positions[corner.vertex as usize].as_vec3();
+        if !position.is_finite() {
+            return Err(SaveError::NotFinite { path: to.to_owned(), vertex: corner.vertex as usize });
+        }
+        positions.push(position);
+    }
+    let flat: Vec<f32> = positions.iter().flat_map(|p| p.to_array()).collect();
+    let mut attributes = json!({"POSITION": builder.floats(&flat, 3, true)});
+    if !shape.normals.is_empty() {
+        let triangles: Vec<[u32; 3]> = shape.triangles.iter().map(|t| t.map(|c| c.vertex)).collect();
+        let smooth = normals::smooth(&shape.positions, &triangles);
+        let normal =
+            |c: &Corner| -> Vec3 { shape.normals.get(c.normal as usize).copied().unwrap_or(smooth[c.vertex as usize]) };
+        let flat: Vec<f32> = vertices.corners.iter().flat_map(|c| normal(c).to_array()).collect();
+        attributes["NORMAL"] = builder.floats(&flat, 3, false).into();
+    }
+    if !shape.uvs.is_empty() {
+        let uv = |c: &Corner| shape.uvs.get(c.uv as usize).copied().unwrap_or(Vec2::ZERO);
+        let flat: Vec<f32> = vertices.corners.iter().map(uv).flat_map(|uv| [uv.x, 1.0 - uv.y]).collect();
+        attributes["TEXCOORD_0"] = builder.floats(&flat, 2, false).into();
+    }
+    if let Some(colors) = &shape.colors {
+        let flat: Vec<f32> = vertices.corners.iter().flat_map(|c| colors[c.vertex as usize]).collect();
+        attributes["COLOR_0"] = builder.floats(&flat, 4, false).into();
+    }
+    if let Some(rigidity) = &shape.rigidity {
+        let r: Vec<u16> = vertices.corners.iter().map(|c| rigidity[c.vertex as usize]).collect();
+        attributes["_RIGIDITY"] = builder.rigidity(&r).into();
+    }
+    Ok(attributes)
+}
+
+/// Collects accessors and their data.
+#[derive(Default)]
+struct Builder {
+    accessors: Vec<Value>,
+    views: Vec<Value>,
+    data: Vec<u8>,
+}
+
+impl Builder {
+    fn push(&mut self, bytes: &[u8], target: u32, stride: Option<u32>, mut accessor: Value) -> usize {
+        self.data.resize(self.data.len().next_multiple_of(4), 0);
+        let mut view = json!({"buffer": 0, "byteOffset": self.data.len(), "byteLength": bytes.len()});
+        if let Some(stride) = stride {
+            view["byteStride"] = stride.into();
+        }
+        view["target"] = target.into();
+        accessor["bufferView"] = self.views.len().into();
+        self.views.push(view);
+        self.data.extend_from_slice(bytes);
+        self.accessors.push(accessor);
+        self.accessors.len() - 1
+    }
+
+    fn floats(&mut self, numbers: &[f32], width: usize, bounds: bool) -> usize {
+        let kind = ["SCALAR", "VEC2", "VEC3", "VEC4"][width - 1];
+        let mut accessor = json!({"componentType": 5126, "count": numbers.len() / width, "type": kind});
+        if bounds {
+            let of = |pick: fn(f32, f32) -> f32| -> Vec<f64> {
+                let column = |k: usize| numbers.iter().skip(k).step_by(width).copied().reduce(pick);
+                (0..width).map(|k| f64::from(column(k).unwrap_or(0.0))).collect()
+            };
+            accessor["min"] = of(f32::min).into();
+            accessor["max"] = of(f32::max).into();
+        }
+        let bytes: Vec<u8> = numbers.iter().flat_map(|x| x.to_le_bytes()).collect();
+        self.push(&bytes, 34962, None, accessor)
+    }
+
+    /// Sixteen-bit numbers four bytes apart: vertex attributes begin at multiples of four.
+    fn rigidity(&mut self, r: &[u16]) -> usize {
+        let bytes: Vec<u8> = r.iter().flat_map(|r| u32::from(*r).to_le_bytes()).collect();
+        self.push(&bytes, 34962, Some(4), json!({"componentType": 5123, "count": r.len(), "type": "SCALAR"}))
+    }
+
+    /// Indices in the shortest type that spares the largest number, which means 'restart'.
+    fn indices(&mut self, indices: &[u32]) -> usize {
+        let short = indices.iter().all(|&index| index < u32::from(u16::MAX));
+        let (kind, bytes): (u32, Vec<u8>) = if short {
+            (5123, indices.iter().flat_map(|&i| (i as u16).to_le_bytes()).collect())
+        } else {
+            (5125, indices.iter().flat_map(|i| i.to_le_bytes()).collect())
+        };
+        self.push(&bytes, 34963, None, json!({"componentType": kind, "count": indices.len(), "type": "SCALAR"}))
+    }
+}

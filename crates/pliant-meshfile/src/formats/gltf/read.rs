@@ -1,0 +1,346 @@
+//! Geometry out of a glTF document.
+
+use super::super::{Input, Opened};
+use super::access::{Component, Data};
+use super::{Block, GltfSource, Primitive, buffers, container, json, nodes};
+use crate::mesh_file::NO_MATERIAL;
+use crate::{Fault, Part, Warning, budget, rigidity};
+use glam::{DMat3, DMat4, DVec3, Vec2};
+use serde_json::Value;
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// Geometry stored in ways that only a decoder could read: extension and what it does.
+const COMPRESSIONS: &[(&str, &str)] = &[
+    ("KHR_draco_mesh_compression", "Draco compression"),
+    ("EXT_meshopt_compression", "meshopt compression"),
+    ("KHR_meshopt_compression", "meshopt compression"),
+];
+
+/// Reads a glTF or GLB file.
+pub(crate) fn read(input: Input<'_>) -> Result<Opened, Fault> {
+    let container = container::parse(input.bytes)?;
+    let document = parse_document(&container.json)?;
+    let buffers = buffers::load(&document, &container, input.folder)?;
+    let mut warnings = Vec::new();
+    let n_meshes = json::list(&document, "meshes")?.len();
+    let transforms = nodes::mesh_transforms(&document, n_meshes, &mut warnings)?;
+    let data = Data { document: &document, buffers: &buffers, container: &container };
+    let mut reader = Reader::new(data, transforms, input.name);
+    reader.meshes()?;
+    let Reader { blocks, primitives, positions, triangles, rigidity, uvs, colors, parts, .. } = reader;
+    let n = positions.len();
+    warnings.extend(reader.warnings);
+    let source = GltfSource {
+        blocks,
+        primitives,
+        folder: input.folder.map(std::path::Path::to_owned),
+        container,
+        document,
+        buffers,
+    };
+    Ok(Opened {
+        positions,
+        triangles,
+        rigidity: filled(rigidity, n, 1),
+        uvs: filled(uvs, n, Vec2::ZERO),
+        colors: filled(colors, n, [1.0; 4]),
+        parts,
+        warnings,
+        source: Arc::new(source),
+    })
+}
+
+/// An attribute of some vertices, completed for all; `None` when no vertex has it.
+fn filled<T: Copy>(mut values: Vec<T>, n: usize, rest: T) -> Option<Vec<T>> {
+    if values.is_empty() {
+        return None;
+    }
+    values.resize(n, rest);
+    Some(values)
+}
+
+fn parse_document(bytes: &[u8]) -> Result<Value, Fault> {
+    let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let document: Value = serde_json::from_slice(text).map_err(|error| {
+        let place = format!("line {}, column {} of the JSON", error.line(), error.column());
+        let problem = error.to_string();
+        let problem = problem.split(" at line").next().unwrap_or_default().to_owned();
+        Fault::at(place, problem)
+    })?;
+    if !document.is_object() {
+        return Err(Fault::Container("is not a glTF file: its JSON is not an object".into()));
+    }
+    let version = document.get("asset").and_then(|asset| asset.get("version")).and_then(Value::as_str);
+    match version {
+        Some(version) if version.starts_with("2.") => {}
+        Some(version) => {
+            let problem = format!("is glTF version {}; only 2.x can be read", rigidity::quoted(version));
+            return Err(Fault::Container(problem));
+        }
+        None => return Err(Fault::Container("is not a glTF file: it names no asset version".into())),
+    }
+    refuse_compression(&document)?;
+    Ok(document)
+}
+
+fn refuse_compression(document: &Value) -> Result<(), Fault> {
+    let required = json::list(document, "extensionsRequired")?;
+    let views = json::list(document, "bufferViews")?;
+    for &(extension, what) in COMPRESSIONS {
+        let used = |object: &Value| object.get("extensions").is_some_and(|all| all.get(extension).is_some());
+        let in_primitive = || {
+            let meshes = json::list(document, "meshes").unwrap_or_default();
+            meshes.iter().filter_map(|mesh| mesh.get("primitives")?.as_array()).flatten().any(used)
+        };
+        if required.iter().any(|name| name == extension) || views.iter().any(used) || in_primitive() {
+            return Err(Fault::Extension { extension, what });
+        }
+    }
+    Ok(())
+}
+
+struct Reader<'a> {
+    data: Data<'a>,
+    transforms: Vec<DMat4>,
+    name: &'a str,
+    block_of: HashMap<usize, usize>,
+    blocks: Vec<Block>,
+    primitives: Vec<Primitive>,
+    positions: Vec<DVec3>,
+    triangles: Vec<[u32; 3]>,
+    rigidity: Vec<u16>,
+    uvs: Vec<Vec2>,
+    colors: Vec<[f32; 4]>,
+    parts: Vec<Part>,
+    warnings: Vec<Warning>,
+}
+
+impl<'a> Reader<'a> {
+    fn new(data: Data<'a>, transforms: Vec<DMat4>, name: &'a str) -> Self {
+        Reader {
+            data,
+            transforms,
+            name,
+            block_of: HashMap::new(),
+            blocks: Vec::new(),
+            primitives: Vec::new(),
+            positions: Vec::new(),
+            triangles: Vec::new(),
+            rigidity: Vec::new(),
+            uvs: Vec::new(),
+            colors: Vec::new(),
+            parts: Vec::new(),
+            warnings: Vec::new(),
+        }
+    }
+
+    fn meshes(&mut self) -> Result<(), Fault> {
+        for (m, mesh) in json::list(self.data.document, "meshes")?.iter().enumerate() {
+            let primitives = mesh.get("primitives").and_then(Value::as_array);
+            for (p, primitive) in primitives.into_iter().flatten().enumerate() {
+                self.primitive(mesh, m, primitive, p)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn primitive(&mut self, mesh: &Value, m: usize, primitive: &'a Value, p: usize) -> Result<(), Fault> {
+        let place = format!("mesh {m}, primitive {p}");
+        let attribute = |name: &str| -> Result<Option<usize>, Fault> {
+            let Some(attributes) = primitive.get("attributes") else { return Ok(None) };
+            let n = json::list(self.data.document, "accessors")?.len();
+            json::reference(attributes, name, &place, "accessor", n)
+        };
+        let Some(position) = attribute("POSITION")? else {
+            self.warnings.push(Warning(format!("{place} has no positions and is not shown")));
+            return Ok(());
+        };
+        let (normal, tangent, uv) = (attribute("NORMAL")?, attribute("TANGENT")?, attribute("TEXCOORD_0")?);
+        let (color, r) = (attribute("COLOR_0")?, attribute("_RIGIDITY")?);
+        let block = self.block(position, m)?;
+        let n_materials = json::list(self.data.document, "materials")?.len();
+        let material = json::reference(primitive, "material", &place, "material", n_materials)?;
+        let start = self.triangles.len();
+        self.faces(primitive, block, &place)?;
+        let triangles = start..self.triangles.len();
+        self.attribute_of(block, r, "_RIGIDITY", Self::rigidity)?;
+        self.displayed(block, uv, "texture coordinates", Self::uv);
+        self.displayed(block, color, "colors", Self::color);
+        let n_primitives = mesh.get("primitives").and_then(Value::as_array).map_or(1, Vec::len);
+        if !triangles.is_empty() {
+            let name = json::name(mesh).map_or_else(|| format!("{} {m}", self.name), str::to_owned);
+            let name = if n_primitives > 1 { format!("{name}.{p}") } else { name };
+            self.parts.push(Part { name, triangles: triangles.clone(), base_color: self.base_color(material) });
+        }
+        let [normal, tangent] = [(normal, 3), (tangent, 4)].map(|(a, width)| self.turnable(a, block, width));
+        self.primitives.push(Primitive { mesh: m, index: p, block, normal, tangent, uv, material, triangles });
+        Ok(())
+    }
+
+    /// A directional attribute that can be rewritten; a broken one is kept as it is.
+    fn turnable(&mut self, accessor: Option<usize>, block: usize, width: usize) -> Option<usize> {
+        let count = self.blocks[block].vertices.len();
+        let checked = self.data.accessor(accessor?).ok().filter(|a| a.count == count && a.width == width);
+        if checked.is_none() {
+            self.warnings.push(Warning(format!("accessor {} cannot be read as directions and stays", accessor?)));
+        }
+        checked.and(accessor)
+    }
+
+    /// The file vertices of a POSITION accessor, numbered at its first use.
+    fn block(&mut self, accessor: usize, mesh: usize) -> Result<usize, Fault> {
+        if let Some(&block) = self.block_of.get(&accessor) {
+            return Ok(block);
+        }
+        let checked = self.data.accessor(accessor)?;
+        let place = format!("accessor {accessor}");
+        let readable = checked.width == 3 && checked.component != Component::U32;
+        if !readable {
+            return Err(Fault::at(place, "positions are not three numbers of a type that positions may have"));
+        }
+        let first = self.positions.len();
+        budget::check("vertices", (first + checked.count) as u64, budget::VERTICES)?;
+        let world_from_local = self.transforms[mesh];
+        let vertices = first..first + checked.count;
+        let block = Block { accessor, vertices, world_from_local, local_from_world: world_from_local.inverse() };
+        let numbers = checked.numbers();
+        self.positions.reserve_exact(checked.count);
+        for (i, local) in numbers.chunks_exact(3).enumerate() {
+            let local = DVec3::new(local[0], local[1], local[2]);
+            // Unplaced meshes keep their numbers to the bit, negative zeros too.
+            let world = if world_from_local == DMat4::IDENTITY { local } else { block.to_world(local) };
+            if !world.is_finite() {
+                let place = format!("vertex {} (element {i} of accessor {accessor})", first + i);
+                return Err(Fault::at(place, "position is not finite"));
+            }
+            self.positions.push(world);
+        }
+        self.blocks.push(block);
+        self.block_of.insert(accessor, self.blocks.len() - 1);
+        Ok(self.blocks.len() - 1)
+    }
+
+    fn faces(&mut self, primitive: &Value, block: usize, place: &str) -> Result<(), Fault> {
+        let mode = json::number(primitive, "mode", place)?.unwrap_or(4);
+        if mode > 6 {
+            return Err(Fault::at(place, format!("mode {mode} is not known")));
+        }
+        let Block { vertices, world_from_local, .. } = self.blocks[block].clone();
+        let n_accessors = json::list(self.data.document, "accessors")?.len();
+        let indices = json::reference(primitive, "indices", place, "accessor", n_accessors)?;
+        let corners: Vec<u32> = match indices {
+            None => (0..vertices.len() as u32).collect(),
+            Some(accessor) => self.indices(accessor, vertices.len(), place)?,
+        };
+        if mode < 4 {
+            return Ok(());
+        }
+        let n_triangles = if mode == 4 { corners.len() / 3 } else { corners.len().saturating_sub(2) };
+        budget::check("triangles", (self.triangles.len() + n_triangles) as u64, budget::TRIANGLES)?;
+        let mirrored = DMat3::from_mat4(world_from_local).determinant() < 0.0;
+        self.triangles.reserve(n_triangles);
+        for t in 0..n_triangles {
+            let [a, b, c] = match mode {
+                4 => [corners[3 * t], corners[3 * t + 1], corners[3 * t + 2]],
+                5 => [corners[t], corners[t + 1 + t % 2], corners[t + 2 - t % 2]],
+                _ => [corners[t + 1], corners[t + 2], corners[0]],
+            };
+            // Strips are stitched with triangles of no extent.
+            if mode != 4 && (a == b || b == c || c == a) {
+                continue;
+            }
+            let triangle = if mirrored { [a, c, b] } else { [a, b, c] };
+            self.triangles.push(triangle.map(|local| vertices.start as u32 + local));
+        }
+        Ok(())
+    }
+
+    fn indices(&self, accessor: usize, n_vertices: usize, place: &str) -> Result<Vec<u32>, Fault> {
+        let checked = self.data.accessor(accessor)?;
+        let unsigned = matches!(checked.component, Component::U8 | Component::U16 | Component::U32);
+        if checked.width != 1 || !unsigned {
+            return Err(Fault::at(format!("accessor {accessor}"), "indices are not unsigned whole numbers"));
+        }
+        let indices: Vec<u32> = checked.numbers().into_iter().map(|x| x as u32).collect();
+        if let Some(i) = indices.iter().position(|&index| index as usize >= n_vertices) {
+            let problem = format!("index {i} names vertex {}, the primitive has {n_vertices}", indices[i]);
+            return Err(Fault::at(place, problem));
+        }
+        Ok(indices)
+    }
+
+    /// Reads an attribute for a block, unless one of the primitives before gave it.
+    fn attribute_of(
+        &mut self,
+        block: usize,
+        accessor: Option<usize>,
+        what: &str,
+        store: fn(&mut Self, usize, usize, &[f64]) -> Result<(), Fault>,
+    ) -> Result<(), Fault> {
+        let Some(accessor) = accessor else { return Ok(()) };
+        let checked = self.data.accessor(accessor)?;
+        let vertices = self.blocks[block].vertices.clone();
+        if checked.count != vertices.len() {
+            let problem = format!("{what} of {} vertices, positions of {}", checked.count, vertices.len());
+            return Err(Fault::at(format!("accessor {accessor}"), problem));
+        }
+        store(self, vertices.start, checked.width, &checked.numbers())
+    }
+
+    /// Like [`Self::attribute_of`], for what only matters to the eye: a broken one is passed over.
+    fn displayed(
+        &mut self,
+        block: usize,
+        accessor: Option<usize>,
+        what: &str,
+        store: fn(&mut Self, usize, usize, &[f64]) -> Result<(), Fault>,
+    ) {
+        if let Err(fault) = self.attribute_of(block, accessor, what, store) {
+            self.warnings.push(Warning(format!("{what} are not shown: {fault}")));
+        }
+    }
+
+    fn rigidity(&mut self, first: usize, width: usize, numbers: &[f64]) -> Result<(), Fault> {
+        if self.rigidity.len() > first {
+            return Ok(());
+        }
+        self.rigidity.resize(first, 1);
+        for (i, &r) in numbers.iter().step_by(width.max(1)).enumerate() {
+            if !(1.0..=f64::from(rigidity::MAX)).contains(&r) || r.fract() != 0.0 {
+                return Err(Fault::Rigidity { entry: first + i, value: r.to_string() });
+            }
+            self.rigidity.push(r as u16);
+        }
+        Ok(())
+    }
+
+    fn uv(&mut self, first: usize, width: usize, numbers: &[f64]) -> Result<(), Fault> {
+        if width != 2 {
+            return Err(Fault::at("their accessor", "does not hold pairs"));
+        }
+        if self.uvs.len() <= first {
+            self.uvs.resize(first, Vec2::ZERO);
+            // glTF has the origin at the upper left.
+            self.uvs.extend(numbers.chunks_exact(2).map(|uv| Vec2::new(uv[0] as f32, 1.0 - uv[1] as f32)));
+        }
+        Ok(())
+    }
+
+    fn color(&mut self, first: usize, width: usize, numbers: &[f64]) -> Result<(), Fault> {
+        if width < 3 {
+            return Err(Fault::at("their accessor", "does not hold colors"));
+        }
+        if self.colors.len() <= first {
+            self.colors.resize(first, [1.0; 4]);
+            let color = |c: &[f64]| [c[0], c[1], c[2], c.get(3).copied().unwrap_or(1.0)].map(|x| x as f32);
+            self.colors.extend(numbers.chunks_exact(width).map(color));
+        }
+        Ok(())
+    }
+
+    fn base_color(&self, material: Option<usize>) -> [f32; 4] {
+        let materials = json::list(self.data.document, "materials").unwrap_or_default();
+        material.and_then(|m| materials.get(m)).map_or(NO_MATERIAL, super::shape::base_color)
+    }
+}

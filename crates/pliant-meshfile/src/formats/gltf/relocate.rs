@@ -1,0 +1,124 @@
+//! Buffers and images of a document that is saved in another kind of file, or in another folder.
+
+use super::buffers::Buffer;
+use super::{GltfSource, base64};
+use crate::{Warning, budget, files};
+use serde_json::{Value, json};
+use std::path::Path;
+
+/// A document whose references hold at its new place.
+pub(super) struct Relocated {
+    pub(super) document: Value,
+    /// The binary chunk, for GLB. New data goes to its end.
+    pub(super) chunk: Option<Vec<u8>>,
+    pub(super) warnings: Vec<Warning>,
+    /// Whether the document differs from the source's.
+    pub(super) changed: bool,
+}
+
+/// Makes the references of a document hold in `to`.
+///
+/// In the source's own folder files beside it stay where they are; elsewhere they are taken into the document, so that
+/// saving writes one file and overwrites no other.
+pub(super) fn relocate(source: &GltfSource, to: &Path, glb: bool) -> Relocated {
+    let mut document = source.document.clone();
+    let mut warnings = Vec::new();
+    let stays = source.folder.as_ref().is_none_or(|folder| files::same_folder(&folder.join("x"), to));
+    let starts_with_chunk = matches!(source.buffers.first(), Some(Buffer::Chunk));
+    let mut changed = glb != source.container.is_glb;
+    let mut chunk = None;
+    if glb && (starts_with_chunk || source.buffers.is_empty()) {
+        chunk = Some(source.container.binary.clone().unwrap_or_default());
+    } else if glb {
+        chunk = Some(merge(source, &mut document));
+        changed = true;
+    }
+    let n_merged = if glb && !starts_with_chunk { source.buffers.len() } else { 0 };
+    for (i, buffer) in source.buffers.iter().enumerate().skip(n_merged) {
+        let embed = match buffer {
+            Buffer::Chunk => !glb,
+            Buffer::File(_) => !stays,
+            Buffer::Inline(_) => false,
+        };
+        if embed {
+            let uri = data_uri("application/octet-stream", buffer.bytes(&source.container));
+            if let Some(slot) = document.pointer_mut(&format!("/buffers/{i}")).and_then(Value::as_object_mut) {
+                slot.insert("uri".into(), uri.into());
+                changed = true;
+            }
+        }
+    }
+    if !stays {
+        changed |= embed_images(source, &mut document, &mut warnings);
+    }
+    Relocated { document, chunk, warnings, changed }
+}
+
+pub(super) fn data_uri(kind: &str, bytes: &[u8]) -> String {
+    format!("data:{kind};base64,{}", base64::encode(bytes))
+}
+
+/// Joins all buffers into one, and moves the views.
+fn merge(source: &GltfSource, document: &mut Value) -> Vec<u8> {
+    let mut chunk = Vec::new();
+    let mut starts = Vec::new();
+    for buffer in &source.buffers {
+        chunk.resize(chunk.len().next_multiple_of(8), 0);
+        starts.push(chunk.len() as u64);
+        chunk.extend_from_slice(buffer.bytes(&source.container));
+    }
+    for view in document.get_mut("bufferViews").and_then(Value::as_array_mut).into_iter().flatten() {
+        let start = view.get("buffer").and_then(Value::as_f64).and_then(|buffer| starts.get(buffer as usize));
+        if let (Some(&start), Some(view)) = (start, view.as_object_mut()) {
+            view.insert("buffer".into(), 0.into());
+            let offset = view.get("byteOffset").and_then(Value::as_f64).unwrap_or(0.0) as u64 + start;
+            if offset > 0 {
+                view.insert("byteOffset".into(), offset.into());
+            }
+        }
+    }
+    let mut joined = document.pointer("/buffers/0").cloned().unwrap_or_else(|| json!({}));
+    if let Some(joined) = joined.as_object_mut() {
+        joined.shift_remove("uri");
+        joined.insert("byteLength".into(), chunk.len().into());
+    }
+    document["buffers"] = json!([joined]);
+    chunk
+}
+
+fn embed_images(source: &GltfSource, document: &mut Value, warnings: &mut Vec<Warning>) -> bool {
+    let mut changed = false;
+    for image in document.get_mut("images").and_then(Value::as_array_mut).into_iter().flatten() {
+        let Some(uri) = image.get("uri").and_then(Value::as_str) else { continue };
+        if uri.starts_with("data:") || uri.contains("://") {
+            continue;
+        }
+        let shown = crate::rigidity::quoted(uri);
+        let read = files::percent_decoded(uri)
+            .ok_or_else(|| "its URI is not text".to_owned())
+            .and_then(|path| files::read_beside(source.folder.as_deref(), &path, budget::TEXT_BYTES));
+        match read {
+            Ok(bytes) => {
+                let stated = image.get("mimeType").and_then(Value::as_str).map(str::to_owned);
+                let kind = stated.unwrap_or_else(|| kind_of(uri).to_owned());
+                image["uri"] = data_uri(&kind, &bytes).into();
+                changed = true;
+            }
+            Err(reason) => warnings.push(Warning(format!("texture {shown} is left behind: {reason}"))),
+        }
+    }
+    if changed {
+        warnings.push(Warning("textures beside the file were put into the saved one".into()));
+    }
+    changed
+}
+
+fn kind_of(uri: &str) -> &'static str {
+    let ending = uri.rsplit('.').next().unwrap_or_default().to_ascii_lowercase();
+    match ending.as_str() {
+        "jpg" | "jpeg" => "image/jpeg",
+        "webp" => "image/webp",
+        "ktx2" => "image/ktx2",
+        _ => "image/png",
+    }
+}

@@ -1,0 +1,258 @@
+//! The same glTF document with new positions, normals, tangents and rigidity appended, and nothing else touched.
+
+use super::access::Data;
+use super::relocate::{data_uri, relocate};
+use super::{Block, GltfSource, Primitive, container, shape};
+use crate::formats::{Edit, Format, Output};
+use crate::{SaveError, Warning};
+use glam::{DQuat, DVec3};
+use serde_json::{Value, json};
+use std::collections::HashMap;
+use std::path::Path;
+
+/// The file again with the edit. Without any change and of the same kind it is the same file to the byte.
+pub(super) fn rewrite(source: &GltfSource, edit: &Edit<'_>, to: &Path, format: Format) -> Result<Output, SaveError> {
+    let glb = format == Format::Glb;
+    let mut place = relocate(source, to, glb);
+    let mut added = Added::new(&place.document, glb, place.chunk.as_deref());
+    let mut replaced = Vec::new();
+    let turns =
+        edit.positions.iter().enumerate().any(|(v, _)| edit.moved(v)).then(|| shape::vertex_turns(source, edit));
+    let rigidity = edit.rigidity.as_deref().filter(|&r| edit.mesh.rigidity.as_deref() != Some(r));
+    if let Some(vertex) = first_out_of_range(source, edit) {
+        return Err(SaveError::NotFinite { path: to.to_owned(), vertex });
+    }
+    let writer = Writer { source, edit, turns: turns.as_deref(), rigidity };
+    let mut known = HashMap::new();
+    for primitive in &source.primitives {
+        for attribute in ["POSITION", "NORMAL", "TANGENT", "_RIGIDITY"] {
+            let Some(key) = writer.key(primitive, attribute) else { continue };
+            let accessor = *known.entry(key).or_insert_with(|| writer.append(primitive, attribute, &mut added));
+            if let Some(accessor) = accessor {
+                replaced.push((primitive.mesh, primitive.index, attribute, accessor));
+            }
+        }
+    }
+    if replaced.is_empty() && !place.changed {
+        return pack(source, source.container.json.clone(), place.chunk, glb, to, place.warnings);
+    }
+    for (mesh, primitive, attribute, accessor) in replaced {
+        let slot = place.document.pointer_mut(&format!("/meshes/{mesh}/primitives/{primitive}/attributes"));
+        if let Some(slot) = slot.and_then(Value::as_object_mut) {
+            slot.insert(attribute.into(), accessor.into());
+        }
+    }
+    added.attach(&mut place.document, &mut place.chunk);
+    let encoded = serde_json::to_vec(&place.document);
+    let json = encoded.map_err(|error| SaveError::Encode { path: to.to_owned(), reason: error.to_string() })?;
+    pack(source, json, place.chunk, glb, to, place.warnings)
+}
+
+fn pack(
+    source: &GltfSource,
+    json: Vec<u8>,
+    chunk: Option<Vec<u8>>,
+    glb: bool,
+    to: &Path,
+    warnings: Vec<Warning>,
+) -> Result<Output, SaveError> {
+    let bytes = if glb {
+        let had_chunk = source.container.binary.is_some();
+        let chunk = chunk.filter(|chunk| had_chunk || !chunk.is_empty());
+        container::glb(&json, chunk.as_deref(), &source.container.others)
+            .map_err(|bytes| SaveError::TooLarge { path: to.to_owned(), bytes })?
+    } else {
+        json
+    };
+    Ok(Output { bytes, beside: Vec::new(), warnings })
+}
+
+/// The first vertex whose local position does not fit single precision.
+fn first_out_of_range(source: &GltfSource, edit: &Edit<'_>) -> Option<usize> {
+    source.blocks.iter().find_map(|block| {
+        block.vertices.clone().find(|&vertex| {
+            let local = block.local_from_world.transform_point3(edit.positions[vertex]);
+            edit.moved(vertex) && !local.as_vec3().is_finite()
+        })
+    })
+}
+
+struct Writer<'a> {
+    source: &'a GltfSource,
+    edit: &'a Edit<'a>,
+    turns: Option<&'a [Option<DQuat>]>,
+    rigidity: Option<&'a [u16]>,
+}
+
+/// What a new accessor stands for: block, attribute, and the accessor it replaces.
+type Key = (usize, &'static str, usize);
+
+impl Writer<'_> {
+    fn key(&self, primitive: &Primitive, attribute: &'static str) -> Option<Key> {
+        let replaces = match attribute {
+            "POSITION" => self.turns.map(|_| self.source.blocks[primitive.block].accessor),
+            "NORMAL" => self.turns.and(primitive.normal),
+            "TANGENT" => self.turns.and(primitive.tangent),
+            _ => self.rigidity.map(|_| usize::MAX),
+        };
+        replaces.map(|accessor| (primitive.block, attribute, accessor))
+    }
+
+    /// A new accessor for an attribute, or `None` when nothing in it changed.
+    fn append(&self, primitive: &Primitive, attribute: &str, added: &mut Added) -> Option<usize> {
+        let block = &self.source.blocks[primitive.block];
+        match attribute {
+            "POSITION" => self.positions(block, added),
+            "NORMAL" => self.directions(block, primitive.normal, 3, added),
+            "TANGENT" => self.directions(block, primitive.tangent, 4, added),
+            _ => Some(added.rigidity(&self.rigidity?[block.vertices.clone()])),
+        }
+    }
+
+    fn positions(&self, block: &Block, added: &mut Added) -> Option<usize> {
+        if !block.vertices.clone().any(|vertex| self.edit.moved(vertex)) {
+            return None;
+        }
+        let old = Data::from(self.source).accessor(block.accessor).ok()?.numbers();
+        let mut numbers = Vec::with_capacity(old.len());
+        for (vertex, old) in block.vertices.clone().zip(old.chunks_exact(3)) {
+            // What did not move keeps its number to the bit.
+            let local = if self.edit.moved(vertex) {
+                block.local_from_world.transform_point3(self.edit.positions[vertex])
+            } else {
+                DVec3::new(old[0], old[1], old[2])
+            };
+            numbers.extend(local.as_vec3().to_array());
+        }
+        Some(added.floats(&numbers, 3, true))
+    }
+
+    fn directions(&self, block: &Block, accessor: Option<usize>, width: usize, added: &mut Added) -> Option<usize> {
+        let turns = &self.turns?[block.vertices.clone()];
+        if turns.iter().all(Option::is_none) {
+            return None;
+        }
+        let old = shape::directions(self.source, accessor)?;
+        let mut numbers = Vec::with_capacity(old.len() * width);
+        for (old, turn) in old.iter().zip(turns) {
+            let direction = DVec3::new(old[0], old[1], old[2]);
+            let new = match turn {
+                None => direction.as_vec3(),
+                Some(turn) if width == 3 => shape::turned_normal(block, *turn, direction),
+                Some(turn) => shape::turned_tangent(block, *turn, direction),
+            };
+            numbers.extend(new.to_array());
+            if width == 4 {
+                numbers.push(old[3] as f32);
+            }
+        }
+        Some(added.floats(&numbers, width, false))
+    }
+}
+
+/// Accessors, views and data to be appended to a document.
+struct Added {
+    n_accessors: usize,
+    n_views: usize,
+    buffer: usize,
+    /// Length of what is in the buffer already.
+    start: usize,
+    accessors: Vec<Value>,
+    views: Vec<Value>,
+    data: Vec<u8>,
+}
+
+impl Added {
+    fn new(document: &Value, glb: bool, chunk: Option<&[u8]>) -> Added {
+        let n = |key: &str| document.get(key).and_then(Value::as_array).map_or(0, Vec::len);
+        // A GLB file has one buffer of its own; in glTF new data is a new buffer inside the document.
+        let (buffer, start) = if glb { (0, chunk.map_or(0, <[u8]>::len)) } else { (n("buffers"), 0) };
+        Added {
+            n_accessors: n("accessors"),
+            n_views: n("bufferViews"),
+            buffer,
+            start: start.next_multiple_of(4),
+            accessors: Vec::new(),
+            views: Vec::new(),
+            data: Vec::new(),
+        }
+    }
+
+    fn view(&mut self, bytes: &[u8], stride: Option<usize>) -> usize {
+        let mut view = json!({
+            "buffer": self.buffer,
+            "byteOffset": self.start + self.data.len(),
+            "byteLength": bytes.len(),
+        });
+        if let Some(stride) = stride {
+            view["byteStride"] = stride.into();
+        }
+        // Vertex attributes.
+        view["target"] = 34962.into();
+        self.views.push(view);
+        self.data.extend_from_slice(bytes);
+        self.n_views + self.views.len() - 1
+    }
+
+    fn push(&mut self, accessor: Value) -> usize {
+        self.accessors.push(accessor);
+        self.n_accessors + self.accessors.len() - 1
+    }
+
+    fn floats(&mut self, numbers: &[f32], width: usize, bounds: bool) -> usize {
+        let bytes: Vec<u8> = numbers.iter().flat_map(|x| x.to_le_bytes()).collect();
+        let view = self.view(&bytes, None);
+        let kind = if width == 3 { "VEC3" } else { "VEC4" };
+        let count = numbers.len() / width;
+        let mut accessor = json!({"bufferView": view, "componentType": 5126, "count": count, "type": kind});
+        if bounds {
+            let of = |pick: fn(f32, f32) -> f32| -> Vec<f64> {
+                let column = |k: usize| numbers.iter().skip(k).step_by(width).copied().reduce(pick);
+                (0..width).map(|k| f64::from(column(k).unwrap_or(0.0))).collect()
+            };
+            accessor["min"] = of(f32::min).into();
+            accessor["max"] = of(f32::max).into();
+        }
+        self.push(accessor)
+    }
+
+    /// Sixteen-bit numbers four bytes apart: vertex attributes begin at multiples of four.
+    fn rigidity(&mut self, r: &[u16]) -> usize {
+        let bytes: Vec<u8> = r.iter().flat_map(|r| u32::from(*r).to_le_bytes()).collect();
+        let view = self.view(&bytes, Some(4));
+        self.push(json!({"bufferView": view, "componentType": 5123, "count": r.len(), "type": "SCALAR"}))
+    }
+
+    fn attach(self, document: &mut Value, chunk: &mut Option<Vec<u8>>) {
+        if self.data.is_empty() {
+            return;
+        }
+        extend(document, "accessors", self.accessors);
+        extend(document, "bufferViews", self.views);
+        match chunk {
+            Some(chunk) => {
+                chunk.resize(self.start, 0);
+                chunk.extend_from_slice(&self.data);
+                let length = Value::from(chunk.len());
+                match document.pointer_mut("/buffers/0").and_then(Value::as_object_mut) {
+                    Some(buffer) => {
+                        buffer.insert("byteLength".into(), length);
+                    }
+                    None => extend(document, "buffers", vec![json!({"byteLength": length})]),
+                }
+            }
+            None => {
+                let uri = data_uri("application/octet-stream", &self.data);
+                extend(document, "buffers", vec![json!({"byteLength": self.data.len(), "uri": uri})]);
+            }
+        }
+    }
+}
+
+/// Appends to a list of the document, which appears if it was not there.
+fn extend(document: &mut Value, key: &str, items: Vec<Value>) {
+    match document.get_mut(key).and_then(Value::as_array_mut) {
+        Some(list) => list.extend(items),
+        None => document[key] = items.into(),
+    }
+}

@@ -1,0 +1,123 @@
+//! Wavefront OBJ: text, one statement a line, several index spaces.
+//!
+//! Read by a scanner of our own: keeping every byte for saving needs the place of each number in the text, and the
+//! guard in front of the usual parser (continuation, marks, text that is not UTF-8, concave polygons) is larger than a
+//! reader. That parser reads material libraries here, and checks this reader in the tests.
+
+mod export;
+mod materials;
+mod parse;
+mod rewrite;
+mod text;
+
+pub(super) use export::write;
+
+use super::{Edit, Format, Input, Opened, Output, Source};
+use crate::mesh_file::NO_MATERIAL;
+use crate::shape::{Corner, Material, NONE, Shape, ShapePart};
+use crate::{Fault, Part, SaveError};
+use glam::{DVec3, Vec2, Vec3};
+use std::path::Path;
+use std::sync::Arc;
+
+/// An OBJ file as it came.
+#[derive(Debug)]
+struct ObjSource {
+    bytes: Vec<u8>,
+    /// Where each `v` statement begins in `bytes`.
+    vertex_at: Vec<u64>,
+    /// Where each `vn` statement begins.
+    normal_at: Vec<u64>,
+    normals: Vec<Vec3>,
+    uvs: Vec<Vec2>,
+    /// Texture coordinate and normal of the corners of each triangle.
+    corners: Vec<[(u32, u32); 3]>,
+    parts: Vec<ShapePart>,
+    materials: Vec<Material>,
+    /// Material libraries the file names.
+    libraries: Vec<String>,
+    folder: Option<std::path::PathBuf>,
+}
+
+/// Reads an OBJ file.
+pub(super) fn read(input: Input<'_>) -> Result<Opened, Fault> {
+    let mut parsed = parse::parse(&input.bytes, input.name)?;
+    let materials = materials::load(&mut parsed, input.folder);
+    let color_of = |material: Option<usize>| material.map_or(NO_MATERIAL, |m| materials[m].base_color);
+    let part = |part: &ShapePart| Part {
+        name: part.name.clone(),
+        triangles: part.triangles.clone(),
+        base_color: color_of(part.material),
+    };
+    let parts = parsed.parts.iter().map(part).collect();
+    let uvs = display_uvs(&parsed);
+    let source = ObjSource {
+        bytes: input.bytes,
+        vertex_at: parsed.vertex_at,
+        normal_at: parsed.normal_at,
+        normals: parsed.normals,
+        uvs: parsed.uvs,
+        corners: parsed.corners,
+        parts: parsed.parts,
+        materials,
+        libraries: parsed.libraries,
+        folder: input.folder.map(Path::to_owned),
+    };
+    Ok(Opened {
+        positions: parsed.positions,
+        triangles: parsed.triangles,
+        rigidity: None,
+        uvs,
+        colors: parsed.colors,
+        parts,
+        warnings: parsed.warnings,
+        source: Arc::new(source),
+    })
+}
+
+/// The first texture coordinate each vertex is used with.
+fn display_uvs(parsed: &parse::Parsed) -> Option<Vec<Vec2>> {
+    if parsed.uvs.is_empty() {
+        return None;
+    }
+    let mut uvs: Vec<Option<Vec2>> = vec![None; parsed.positions.len()];
+    for (triangle, corners) in parsed.triangles.iter().zip(&parsed.corners) {
+        for (&vertex, &(uv, _)) in triangle.iter().zip(corners) {
+            if uv != NONE {
+                uvs[vertex as usize].get_or_insert(parsed.uvs[uv as usize]);
+            }
+        }
+    }
+    Some(uvs.into_iter().map(Option::unwrap_or_default).collect())
+}
+
+impl Source for ObjSource {
+    fn rewrite(&self, edit: &Edit<'_>, to: &Path, format: Format) -> Option<Result<Output, SaveError>> {
+        (format == Format::Obj).then(|| rewrite::rewrite(self, edit, to))
+    }
+
+    fn shape(&self, edit: &Edit<'_>) -> Shape {
+        let corner = |vertex: u32, (uv, normal): (u32, u32)| Corner { vertex, uv, normal };
+        let join = |(t, c): (&[u32; 3], &[(u32, u32); 3])| [corner(t[0], c[0]), corner(t[1], c[1]), corner(t[2], c[2])];
+        let normals = rewrite::turned_normals(self, edit);
+        let normals = normals.into_iter().map(|(normal, _)| normal.normalize_or(Vec3::Z)).collect();
+        Shape {
+            positions: edit.positions.clone(),
+            uvs: self.uvs.clone(),
+            normals,
+            colors: edit.mesh.colors.clone(),
+            triangles: edit.mesh.triangles.iter().zip(&self.corners).map(join).collect(),
+            parts: self.parts.clone(),
+            materials: self.materials.clone(),
+            rigidity: edit.rigidity.clone().or_else(|| edit.mesh.rigidity.clone()),
+            left_behind: if self.libraries.is_empty() {
+                vec!["comments", "polygons of more than three corners"]
+            } else {
+                vec!["comments", "polygons of more than three corners", "textures"]
+            },
+        }
+    }
+}
+
+/// A coordinate triple of a statement.
+type Triple = DVec3;

@@ -1,0 +1,69 @@
+//! The same OBJ text with other numbers in its `v` and `vn` lines.
+
+use super::super::{Edit, Output};
+use super::ObjSource;
+use super::text::statement_at;
+use crate::shape::NONE;
+use crate::{SaveError, Warning, files, normals};
+use glam::Vec3;
+use std::io::Write;
+use std::path::Path;
+
+/// The file again; a line is touched only if its vertex moved or its normal turned.
+pub(super) fn rewrite(source: &ObjSource, edit: &Edit<'_>, to: &Path) -> Result<Output, SaveError> {
+    let mut changes: Vec<(u64, [String; 3])> = Vec::new();
+    for (vertex, (&at, position)) in source.vertex_at.iter().zip(&edit.positions).enumerate() {
+        if edit.moved(vertex) {
+            changes.push((at, position.to_array().map(|x| x.to_string())));
+        }
+    }
+    for (&at, (normal, turned)) in source.normal_at.iter().zip(turned_normals(source, edit)) {
+        if turned {
+            changes.push((at, normal.to_array().map(|x| x.to_string())));
+        }
+    }
+    changes.sort_unstable_by_key(|change| change.0);
+    let mut bytes = Vec::with_capacity(source.bytes.len() + changes.len() * 16);
+    let mut copied = 0;
+    for (at, numbers) in &changes {
+        for (word, number) in statement_at(&source.bytes, *at as usize).words().skip(1).zip(numbers) {
+            bytes.extend_from_slice(&source.bytes[copied..word.start]);
+            write!(bytes, "{number}").expect("memory can be written");
+            copied = word.end;
+        }
+    }
+    bytes.extend_from_slice(&source.bytes[copied..]);
+    Ok(Output { bytes, beside: Vec::new(), warnings: stranded_libraries(source, to) })
+}
+
+/// Every normal of the file for the new shape, and whether it changed.
+///
+/// A `vn` line may serve corners of several vertices (all corners of a flat side); it then turns with their faces
+/// together.
+pub(super) fn turned_normals(source: &ObjSource, edit: &Edit<'_>) -> Vec<(Vec3, bool)> {
+    let mesh = edit.mesh;
+    let cluster = |t: usize, k: usize| {
+        let normal = source.corners[t][k].1;
+        (normal != NONE).then_some(normal)
+    };
+    let turns = normals::turns(&mesh.triangles, source.normals.len(), cluster, &mesh.positions, &edit.positions);
+    let apply = |(&normal, turn): (&Vec3, Option<_>)| match turn {
+        Some(turn) => (normals::turned(normal, turn), true),
+        None => (normal, false),
+    };
+    source.normals.iter().zip(turns).map(apply).collect()
+}
+
+fn stranded_libraries(source: &ObjSource, to: &Path) -> Vec<Warning> {
+    let Some(folder) = &source.folder else { return Vec::new() };
+    if source.libraries.is_empty() || files::same_folder(&folder.join("x"), to) {
+        return Vec::new();
+    }
+    let names: Vec<String> = source.libraries.iter().map(|name| crate::rigidity::quoted(name)).collect();
+    let text = format!(
+        "the material library {} stays in {}: copy it beside the saved file to keep the materials",
+        names.join(", "),
+        folder.display()
+    );
+    vec![Warning(text)]
+}

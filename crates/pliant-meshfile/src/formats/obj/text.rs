@@ -1,0 +1,158 @@
+//! Statements and words of OBJ text, over bytes, so that any encoding passes and places can be edited.
+
+/// A line, with its continuations, as a range of the text.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Statement<'a> {
+    bytes: &'a [u8],
+    pub(super) start: usize,
+    end: usize,
+}
+
+/// Walks the statements of a text. Lines end at `\n`, `\r\n` or `\r`.
+pub(super) struct Statements<'a> {
+    bytes: &'a [u8],
+    at: usize,
+    line: usize,
+}
+
+impl<'a> Statements<'a> {
+    pub(super) fn new(bytes: &'a [u8]) -> Self {
+        let mark = if bytes.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 };
+        Statements { bytes, at: mark, line: 1 }
+    }
+}
+
+impl<'a> Iterator for Statements<'a> {
+    /// The statement and the number of its first line, from 1.
+    type Item = (Statement<'a>, usize);
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let (bytes, start, line) = (self.bytes, self.at, self.line);
+        if start >= bytes.len() {
+            return None;
+        }
+        let statement = statement_at(bytes, start);
+        let mut at = statement.end;
+        self.line += count_line_ends(&bytes[start..at]) + 1;
+        at += line_end(bytes, at);
+        self.at = at;
+        Some((statement, line))
+    }
+}
+
+/// The statement that begins at a place.
+pub(super) fn statement_at(bytes: &[u8], start: usize) -> Statement<'_> {
+    let first = bytes[start..].iter().find(|b| !matches!(b, b' ' | b'\t'));
+    // A comment that ends in a backslash does not swallow the line after it.
+    let continues = first != Some(&b'#');
+    let mut end = start;
+    while end < bytes.len() {
+        match bytes[end] {
+            b'\n' | b'\r' => break,
+            b'\\' if continues && line_end(bytes, end + 1) > 0 => end += 1 + line_end(bytes, end + 1),
+            _ => end += 1,
+        }
+    }
+    Statement { bytes, start, end }
+}
+
+/// Length of the line end at a place, 0 if there is none.
+fn line_end(bytes: &[u8], at: usize) -> usize {
+    match (bytes.get(at), bytes.get(at + 1)) {
+        (Some(b'\r'), Some(b'\n')) => 2,
+        (Some(b'\r' | b'\n'), _) => 1,
+        _ => 0,
+    }
+}
+
+fn count_line_ends(bytes: &[u8]) -> usize {
+    let (mut at, mut n) = (0, 0);
+    while at < bytes.len() {
+        let length = line_end(bytes, at);
+        n += usize::from(length > 0);
+        at += length.max(1);
+    }
+    n
+}
+
+impl<'a> Statement<'a> {
+    /// The words before a comment, each with its range in the text.
+    pub(super) fn words(self) -> Words<'a> {
+        Words { statement: self, at: self.start }
+    }
+
+    /// Everything after the first word, as text, without blanks around it: a name may contain blanks and `#`.
+    pub(super) fn rest(self) -> String {
+        let after = self.words().next().map_or(self.end, |word| word.end);
+        String::from_utf8_lossy(&self.bytes[after..self.end]).trim().to_owned()
+    }
+}
+
+/// A word as a range of the text.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Word<'a> {
+    pub(super) bytes: &'a [u8],
+    pub(super) start: usize,
+    pub(super) end: usize,
+}
+
+impl Word<'_> {
+    pub(super) fn number(&self) -> Option<f64> {
+        std::str::from_utf8(self.bytes).ok()?.parse().ok()
+    }
+
+    pub(super) fn shown(&self) -> String {
+        crate::rigidity::quoted(&String::from_utf8_lossy(self.bytes))
+    }
+}
+
+/// Iterator over the words of a statement.
+pub(super) struct Words<'a> {
+    statement: Statement<'a>,
+    at: usize,
+}
+
+impl<'a> Iterator for Words<'a> {
+    type Item = Word<'a>;
+
+    fn next(&mut self) -> Option<Word<'a>> {
+        let Statement { bytes, end, .. } = self.statement;
+        // Inside a statement a line end only ever follows a backslash.
+        let continuation = |at: usize| bytes[at] == b'\\' && at + 1 < end && line_end(bytes, at + 1) > 0;
+        let mut start = self.at;
+        while start < end {
+            if continuation(start) {
+                start += 1 + line_end(bytes, start + 1);
+            } else if matches!(bytes[start], b' ' | b'\t' | b'\0' | 0x0b | 0x0c) {
+                start += 1;
+            } else {
+                break;
+            }
+        }
+        if start >= end || bytes[start] == b'#' {
+            self.at = end;
+            return None;
+        }
+        let mut stop = start;
+        while stop < end && !matches!(bytes[stop], b' ' | b'\t' | b'\0' | 0x0b | 0x0c) && !continuation(stop) {
+            stop += 1;
+        }
+        self.at = stop;
+        Some(Word { bytes: &bytes[start..stop], start, end: stop })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_end_and_continue_in_every_way() {
+        let text = b"\xef\xbb\xbfv 1 \\\r\n2\\\n3\r# art \\\nf a#b # c\n";
+        let got: Vec<(usize, Vec<String>)> = Statements::new(text)
+            .map(|(s, line)| (line, s.words().map(|w| String::from_utf8_lossy(w.bytes).into_owned()).collect()))
+            .collect();
+        let words = |text: &str| text.split(' ').filter(|w| !w.is_empty()).map(str::to_owned).collect::<Vec<_>>();
+        assert_eq!(got, [(1, words("v 1 2 3")), (4, words("")), (5, words("f a#b"))]);
+    }
+}

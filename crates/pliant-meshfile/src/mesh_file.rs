@@ -1,0 +1,252 @@
+//! A mesh file as opened, and the ways in and out.
+
+use crate::formats::{Edit, Input, Opened, Output, Source};
+use crate::shape::{Corner, NONE, Shape, ShapePart};
+use crate::{Fault, Format, OpenError, SaveError, Warning, Weld, budget, files, normals, rigidity};
+use glam::{DVec3, Vec2};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// A mesh file as opened: its geometry in world space, and everything else untouched for saving.
+#[derive(Clone, Debug)]
+pub struct MeshFile {
+    /// Where it came from; `None` for meshes from memory.
+    pub path: Option<PathBuf>,
+    /// The format it came in.
+    pub format: Format,
+    /// World-space position of every file vertex, in file order and the file's units. Finite.
+    pub positions: Vec<DVec3>,
+    /// Triangles over file vertices, polygons cut by ear clipping. Every index is in range.
+    pub triangles: Vec<[u32; 3]>,
+    /// Which surface point each file vertex stands for.
+    pub weld: Weld,
+    /// r of every file vertex, from 1 to 1000, when the file or its sidecar `NAME.rigidity.json` carries one.
+    pub rigidity: Option<Vec<u16>>,
+    /// Texture coordinates of every file vertex, for display, origin at the lower left.
+    pub uvs: Option<Vec<Vec2>>,
+    /// Color of every file vertex, red, green, blue, alpha, for display.
+    pub colors: Option<Vec<[f32; 4]>>,
+    /// The pieces the file names, with ascending ranges that cover `triangles`.
+    pub parts: Vec<Part>,
+    /// What was skipped or changed for display on opening.
+    pub warnings: Vec<Warning>,
+    source: Arc<dyn Source>,
+}
+
+/// A named piece of a file: a group of OBJ, a primitive of glTF.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Part {
+    /// As in the file, or made up from its place there.
+    pub name: String,
+    /// Its range of [`MeshFile::triangles`].
+    pub triangles: Range<usize>,
+    /// Base color of its material: red, green, blue, alpha; light gray without one.
+    pub base_color: [f32; 4],
+}
+
+/// Base color of what has no material.
+pub(crate) const NO_MATERIAL: [f32; 4] = [0.8, 0.8, 0.8, 1.0];
+
+/// Opens a mesh file, its format chosen by the ending of its name.
+///
+/// References are followed inside the file's folder only. Errors name the file, the place in it and what is wrong.
+pub fn open(path: &Path) -> Result<MeshFile, OpenError> {
+    let Some(format) = Format::of(path) else {
+        return Err(match std::fs::metadata(path) {
+            Err(source) => OpenError::Read { path: path.to_owned(), source },
+            Ok(_) => OpenError::UnknownFormat { path: path.to_owned() },
+        });
+    };
+    let bytes = files::read(path, budget::FILE_BYTES)?;
+    let name = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+    let input = Input { bytes, folder: Some(files::folder_of(path)), name: &name };
+    let mut file = read(input, format).map_err(|fault| fault.in_file(path))?;
+    file.path = Some(path.to_owned());
+    if format.entry().rigidity_in_sidecar {
+        read_sidecar(&mut file, &rigidity::sidecar_of(path))?;
+    }
+    Ok(file)
+}
+
+/// Opens a mesh file from memory; `name` stands for its path in messages. No references but data URIs are followed.
+pub fn from_bytes(bytes: &[u8], format: Format, name: &str) -> Result<MeshFile, OpenError> {
+    read(Input { bytes: bytes.to_vec(), folder: None, name }, format).map_err(|fault| fault.in_file(name))
+}
+
+fn read(input: Input<'_>, format: Format) -> Result<MeshFile, Fault> {
+    let opened = (format.entry().read)(input)?;
+    if opened.triangles.is_empty() {
+        return Err(Fault::Empty);
+    }
+    Ok(MeshFile::new(format, opened))
+}
+
+/// A sidecar that is broken is an error, since saving over it would lose it.
+fn read_sidecar(file: &mut MeshFile, sidecar: &Path) -> Result<(), OpenError> {
+    if !sidecar.exists() {
+        return Ok(());
+    }
+    let bytes = files::read(sidecar, budget::TEXT_BYTES)?;
+    let rigidity = rigidity::parse(&bytes)
+        .and_then(|rigidity| rigidity::check_count(rigidity, file.positions.len()))
+        .map_err(|fault| fault.in_file(sidecar))?;
+    file.rigidity = Some(rigidity);
+    Ok(())
+}
+
+impl MeshFile {
+    fn new(format: Format, opened: Opened) -> MeshFile {
+        let weld = Weld::exact(&opened.positions);
+        MeshFile {
+            path: None,
+            format,
+            positions: opened.positions,
+            triangles: opened.triangles,
+            weld,
+            rigidity: opened.rigidity,
+            uvs: opened.uvs,
+            colors: opened.colors,
+            parts: opened.parts,
+            warnings: opened.warnings,
+            source: opened.source,
+        }
+    }
+
+    /// A mesh that comes from no file (samples): saved as a minimal clean file with smooth normals.
+    ///
+    /// Positions are to be finite and indices in range; triangles that are not are left out with a warning.
+    pub fn from_triangles(name: &str, positions: Vec<DVec3>, triangles: Vec<[u32; 3]>) -> MeshFile {
+        let n_given = triangles.len();
+        let mut triangles = triangles;
+        triangles.retain(|t| t.iter().all(|&v| positions.get(v as usize).is_some_and(|p| p.is_finite())));
+        let warnings = match n_given - triangles.len() {
+            0 => Vec::new(),
+            n => vec![Warning(format!("{n} triangles of {name} name no vertex and were left out"))],
+        };
+        let part = Part { name: name.to_owned(), triangles: 0..triangles.len(), base_color: NO_MATERIAL };
+        let opened = Opened {
+            positions,
+            triangles,
+            rigidity: None,
+            uvs: None,
+            colors: None,
+            parts: vec![part],
+            warnings,
+            source: Arc::new(Generated),
+        };
+        MeshFile::new(Format::Glb, opened)
+    }
+
+    /// Rest positions of the surface points, in world space.
+    pub fn points(&self) -> Vec<DVec3> {
+        self.weld.vertex_of_point.iter().map(|&vertex| self.positions[vertex as usize]).collect()
+    }
+
+    /// Triangles over surface points, in the order of `triangles`.
+    pub fn point_triangles(&self) -> Vec<[u32; 3]> {
+        self.triangles.iter().map(|t| t.map(|vertex| self.weld.point_of_vertex[vertex as usize])).collect()
+    }
+
+    /// r per surface point, the largest among welded vertices, and whether some of them disagreed.
+    pub fn point_rigidity(&self) -> Option<(Vec<u16>, bool)> {
+        let rigidity = self.rigidity.as_ref()?;
+        let mut of_point = vec![0; self.weld.n_points()];
+        let mut disagree = false;
+        for (&point, &r) in self.weld.point_of_vertex.iter().zip(rigidity) {
+            let known: &mut u16 = &mut of_point[point as usize];
+            disagree |= *known != 0 && *known != r;
+            *known = r.max(*known);
+        }
+        Some((of_point, disagree))
+    }
+
+    /// Writes this file with new world positions and r of its surface points, everything else as it was opened.
+    ///
+    /// `to` may be the file that was opened. The file is complete or untouched whatever happens. Returns what the
+    /// format of `to` could not hold. Without `rigidity` none is written and one in the file stays.
+    pub fn save(&self, to: &Path, points: &[DVec3], rigidity: Option<&[u16]>) -> Result<Vec<Warning>, SaveError> {
+        let format = Format::of(to).ok_or_else(|| SaveError::UnknownFormat { path: to.to_owned() })?;
+        let edit = self.edit(to, points, rigidity)?;
+        let entry = format.entry();
+        let output = match self.source.rewrite(&edit, to, format) {
+            Some(output) => output?,
+            None => self.convert(&edit, to, format)?,
+        };
+        let mut all = output.beside;
+        if let (true, Some(rigidity)) = (entry.rigidity_in_sidecar, &edit.rigidity) {
+            all.push((rigidity::sidecar_of(to), rigidity::to_json(rigidity)));
+        }
+        all.push((to.to_owned(), output.bytes));
+        files::write_all(&all)?;
+        Ok(output.warnings)
+    }
+
+    fn convert(&self, edit: &Edit<'_>, to: &Path, format: Format) -> Result<Output, SaveError> {
+        let shape = self.source.shape(edit);
+        let mut output = (format.entry().write)(&shape, to)?;
+        let left: Vec<&str> = shape.left_behind.clone();
+        if !left.is_empty() {
+            output.warnings.push(Warning(format!("not carried over into {}: {}", to.display(), left.join(", "))));
+        }
+        Ok(output)
+    }
+
+    /// Checks what is to be saved and spreads it from surface points to file vertices.
+    fn edit(&self, to: &Path, points: &[DVec3], rigidity: Option<&[u16]>) -> Result<Edit<'_>, SaveError> {
+        let path = || to.to_owned();
+        let expected = self.weld.n_points();
+        if points.len() != expected {
+            return Err(SaveError::Count { path: path(), what: "positions", found: points.len(), expected });
+        }
+        if let Some(point) = points.iter().position(|p| !p.is_finite()) {
+            return Err(SaveError::NotFinite { path: path(), vertex: self.weld.vertex_of_point[point] as usize });
+        }
+        if let Some(r) = rigidity {
+            if r.len() != expected {
+                return Err(SaveError::Count { path: path(), what: "rigidities", found: r.len(), expected });
+            }
+            if let Some(point) = r.iter().position(|r| !(1..=rigidity::MAX).contains(r)) {
+                return Err(SaveError::Rigidity { path: path(), point, value: r[point] });
+            }
+        }
+        let of_vertex = self.weld.point_of_vertex.iter().map(|&point| point as usize);
+        // Equal as numbers means unmoved: the file's own zero, negative or not, stays.
+        let spread = |(vertex, point): (usize, usize)| {
+            let old = self.positions[vertex];
+            if points[point] == old { old } else { points[point] }
+        };
+        let positions = of_vertex.clone().enumerate().map(spread).collect();
+        let rigidity = rigidity.map(|r| of_vertex.map(|point| r[point]).collect());
+        Ok(Edit { mesh: self, positions, rigidity })
+    }
+}
+
+/// The source of a mesh that no file holds.
+#[derive(Debug)]
+struct Generated;
+
+impl Source for Generated {
+    fn rewrite(&self, _: &Edit<'_>, _: &Path, _: Format) -> Option<Result<Output, SaveError>> {
+        None
+    }
+
+    fn shape(&self, edit: &Edit<'_>) -> Shape {
+        let mesh = edit.mesh;
+        let corner = |vertex| Corner { vertex, uv: NONE, normal: vertex };
+        let part =
+            |part: &Part| ShapePart { name: part.name.clone(), triangles: part.triangles.clone(), material: None };
+        // Generated shapes may repeat vertices too: normals are those of the welded surface.
+        let points: Vec<DVec3> =
+            mesh.weld.vertex_of_point.iter().map(|&vertex| edit.positions[vertex as usize]).collect();
+        let of_point = normals::smooth(&points, &mesh.point_triangles());
+        Shape {
+            normals: mesh.weld.point_of_vertex.iter().map(|&point| of_point[point as usize]).collect(),
+            positions: edit.positions.clone(),
+            triangles: mesh.triangles.iter().map(|t| t.map(corner)).collect(),
+            parts: mesh.parts.iter().map(part).collect(),
+            rigidity: edit.rigidity.clone(),
+            ..Shape::default()
+        }
+    }
+}

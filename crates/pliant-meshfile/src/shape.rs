@@ -1,0 +1,46 @@
+//! A mesh without its file: what one format hands to another when a model is saved as something else.
+
+use glam::{DVec3, Vec2, Vec3};
+use std::ops::Range;
+
+/// Marks a corner without texture coordinate or normal.
+pub(crate) const NONE: u32 = u32::MAX;
+
+/// One corner of a triangle: indices into the lists of a [`Shape`], or [`NONE`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct Corner {
+    pub(crate) vertex: u32,
+    pub(crate) uv: u32,
+    pub(crate) normal: u32,
+}
+
+/// A named surface material, as far as formats share it.
+#[derive(Clone, Debug)]
+pub(crate) struct Material {
+    pub(crate) name: String,
+    pub(crate) base_color: [f32; 4],
+}
+
+/// A named range of triangles with one material.
+#[derive(Clone, Debug)]
+pub(crate) struct ShapePart {
+    pub(crate) name: String,
+    pub(crate) triangles: Range<usize>,
+    pub(crate) material: Option<usize>,
+}
+
+/// Geometry in world space with per-corner attributes; texture coordinates have their origin at the lower left.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Shape {
+    pub(crate) positions: Vec<DVec3>,
+    pub(crate) uvs: Vec<Vec2>,
+    pub(crate) normals: Vec<Vec3>,
+    pub(crate) colors: Option<Vec<[f32; 4]>>,
+    pub(crate) triangles: Vec<[Corner; 3]>,
+    pub(crate) parts: Vec<ShapePart>,
+    pub(crate) materials: Vec<Material>,
+    /// One r per position.
+    pub(crate) rigidity: Option<Vec<u16>>,
+    /// What the source holds that a shape does not, in words that end a sentence: "textures", "skins".
+    pub(crate) left_behind: Vec<&'static str>,
+}

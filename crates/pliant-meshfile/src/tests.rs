@@ -1,0 +1,8 @@
+//! Promises about whole files: what comes back after opening and saving.
+
+mod bad_files;
+mod conversion;
+mod gltf_saving;
+mod mutation;
+mod obj_saving;
+mod support;

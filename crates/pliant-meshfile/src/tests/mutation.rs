@@ -1,0 +1,75 @@
+//! Thousands of damaged files: each is opened or refused, and what opens is sound.
+
+use super::support::{OBJ, seam_glb};
+use crate::{Format, from_bytes};
+
+/// A generator of numbers that are the same in every run (Marsaglia's xorshift).
+struct Numbers(u64);
+
+impl Numbers {
+    fn below(&mut self, n: usize) -> usize {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 % n.max(1) as u64) as usize
+    }
+}
+
+fn mutated(original: &[u8], numbers: &mut Numbers) -> Vec<u8> {
+    let mut bytes = original.to_vec();
+    for _ in 0..=numbers.below(4) {
+        let at = numbers.below(bytes.len());
+        let digits = b"0123456789-.e/[]{},:\" \n\\\xff";
+        match numbers.below(6) {
+            0 => bytes.truncate(at),
+            1 if !bytes.is_empty() => bytes[at] = numbers.below(256) as u8,
+            2 => bytes.insert(at.min(bytes.len()), digits[numbers.below(digits.len())]),
+            3 if !bytes.is_empty() => bytes[at] = digits[numbers.below(digits.len())],
+            4 if !bytes.is_empty() => drop(bytes.remove(at)),
+            _ => {
+                let end = (at + numbers.below(40)).min(bytes.len());
+                let piece = bytes[at.min(end)..end].to_vec();
+                let to = numbers.below(bytes.len() + 1);
+                bytes.splice(to..to, piece);
+            }
+        }
+    }
+    bytes
+}
+
+fn survives(original: &[u8], format: Format, seed: u64, n: usize) {
+    let mut numbers = Numbers(seed);
+    for round in 0..n {
+        let bytes = mutated(original, &mut numbers);
+        let Ok(file) = from_bytes(&bytes, format, "mutated") else { continue };
+        let n = file.positions.len();
+        assert!(file.positions.iter().all(|p| p.is_finite()), "round {round}: a position is not finite");
+        assert!(file.triangles.iter().flatten().all(|&v| (v as usize) < n), "round {round}: index beyond {n}");
+        let covered: usize = file.parts.iter().map(|part| part.triangles.len()).sum();
+        assert_eq!(covered, file.triangles.len(), "round {round}: triangles in parts");
+    }
+}
+
+#[test]
+fn damaged_obj_text_is_opened_or_refused() {
+    survives(OBJ.as_bytes(), Format::Obj, 0x5eed_0001, 4000);
+}
+
+#[test]
+fn damaged_glb_files_are_opened_or_refused() {
+    survives(&seam_glb(), Format::Glb, 0x5eed_0002, 4000);
+}
+
+#[test]
+fn damaged_documents_are_opened_or_refused() {
+    // Mutating the JSON alone, with the lengths around it right, gets past the container.
+    let (document, binary) = super::support::seam();
+    let text = document.to_string().into_bytes();
+    let mut numbers = Numbers(0x5eed_0003);
+    for _ in 0..4000 {
+        let json = mutated(&text, &mut numbers);
+        if let Ok(document) = serde_json::from_slice(&json) {
+            let _ = from_bytes(&super::support::glb(&document, &binary), Format::Glb, "mutated");
+        }
+    }
+}

@@ -1,0 +1,81 @@
+//! OBJ in, the same OBJ out.
+
+use super::support::{OBJ, bent, obj, saved};
+use glam::DVec3;
+
+#[test]
+fn saving_an_untouched_obj_gives_the_same_bytes() {
+    let ends = ["\n", "\r\n", "\r"];
+    for end in ends {
+        let text = OBJ.replace('\n', end);
+        let file = obj(&text);
+        let (bytes, _) = saved(&file, "same.obj", &file.points(), None);
+        assert_eq!(String::from_utf8_lossy(&bytes), text);
+    }
+}
+
+#[test]
+fn saving_a_bent_obj_changes_only_numbers_of_v_and_vn_lines() {
+    let file = obj(OBJ);
+    let points = bent(&file.points());
+    let (bytes, again) = saved(&file, "bent.obj", &points, None);
+    let text = String::from_utf8(bytes).expect("text");
+    assert_eq!(text.lines().count(), OBJ.lines().count());
+    for (line, (new, old)) in text.lines().zip(OBJ.lines()).enumerate() {
+        let geometry = old.starts_with("v ") || old.starts_with("vn ");
+        assert!(geometry || new == old, "line {}: got {new}, expected {old}", line + 1);
+    }
+    assert!(text.contains(" # keep\n"), "the comment behind a vertex stays");
+    assert!(text.contains("v 0 0 0\n"), "a vertex that did not move keeps its digits");
+    assert_eq!(again.points(), points, "OBJ holds positions to the bit");
+    assert_eq!(again.triangles, file.triangles);
+}
+
+#[test]
+fn every_way_of_writing_a_face_is_read() {
+    let text = "\u{feff}v 0 0 0 1 0 0\nv 1 0 0 0 1 0\r\nv 1 1 \\\n0 0 0 1\rv 0 1 0\nf -4 -3 -2\nf 1 3 4 # end\n";
+    let file = obj(text);
+    assert_eq!(file.triangles, [[0, 1, 2], [0, 2, 3]]);
+    let colors = file.colors.expect("colors");
+    assert_eq!(colors[2], [0.0, 0.0, 1.0, 1.0]);
+    assert_eq!(colors[3], [1.0; 4]);
+}
+
+#[test]
+fn names_may_be_of_any_encoding() {
+    let mut bytes = b"o caf\xe9\nusemtl \xff\n".to_vec();
+    bytes.extend(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    let file = crate::from_bytes(&bytes, crate::Format::Obj, "x").expect("a mesh");
+    let points: Vec<DVec3> = file.points().iter().map(|p| *p * 2.0).collect();
+    let (out, _) = saved(&file, "x.obj", &points, None);
+    assert!(out.starts_with(b"o caf\xe9\nusemtl \xff\n"), "names keep their bytes");
+}
+
+#[test]
+fn rigidity_lives_in_a_sidecar() {
+    let file = obj(OBJ);
+    let (_, again) = saved(&file, "r.obj", &file.points(), Some(&[1, 2, 3, 4, 1000]));
+    assert_eq!(again.rigidity.as_deref(), Some(&[1, 2, 3, 4, 1000][..]));
+}
+
+#[test]
+fn tobj_reads_the_same_geometry() {
+    let file = obj(OBJ);
+    let options = tobj::LoadOptions { triangulate: true, ..tobj::LoadOptions::default() };
+    // Material libraries are not looked for here.
+    let none = |_: &std::path::Path| Ok((Vec::new(), Default::default()));
+    // It takes a comment behind a vertex for a color.
+    let text = OBJ.replace(" # keep", "");
+    let (models, _) = tobj::load_obj_buf(&mut text.as_bytes(), &options, none).expect("tobj reads it");
+    let n: usize = models.iter().map(|m| m.mesh.indices.len() / 3).sum();
+    assert!(n >= file.triangles.len(), "got {n}, expected {}", file.triangles.len());
+    let place = |p: &[f32]| DVec3::new(f64::from(p[0]), f64::from(p[1]), f64::from(p[2]));
+    let first = &models[0].mesh;
+    for (t, triangle) in file.triangles[..2].iter().enumerate() {
+        for (k, &ours) in triangle.iter().enumerate() {
+            let vertex = first.indices[3 * t + k] as usize;
+            let theirs = place(&first.positions[3 * vertex..]);
+            assert_eq!(file.positions[ours as usize], theirs, "triangle {t}, corner {k}");
+        }
+    }
+}
