@@ -174,7 +174,9 @@ impl MeshFile {
             None => self.convert(&edit, to, format)?,
         };
         let mut all = output.beside;
-        if let (true, Some(rigidity)) = (entry.rigidity_in_sidecar, &edit.rigidity) {
+        // What was read from one sidecar goes on in the next.
+        let rigidity = edit.rigidity.as_ref().or(self.rigidity.as_ref());
+        if let (true, Some(rigidity)) = (entry.rigidity_in_sidecar, rigidity) {
             all.push((rigidity::sidecar_of(to), rigidity::to_json(rigidity)));
         }
         all.push((to.to_owned(), output.bytes));
