@@ -135,9 +135,8 @@ impl Layout {
 
 /// Vertices by component, then along the curve, then by number.
 fn vertex_order(mesh: &Mesh, curve: &Curve) -> Vec<u32> {
-    let mut keyed: Vec<(u32, u64, u32)> = (0..mesh.n_vertices())
-        .map(|v| (mesh.components()[v], curve.position(mesh.positions()[v]), v as u32))
-        .collect();
+    let mut keyed: Vec<(u32, u64, u32)> =
+        (0..mesh.n_vertices()).map(|v| (mesh.components()[v], curve.position(mesh.positions()[v]), v as u32)).collect();
     keyed.sort_unstable();
     keyed.into_iter().map(|key| key.2).collect()
 }

@@ -62,9 +62,7 @@ fn position_of_cell(mut x: [u32; 3]) -> u64 {
         bit >>= 1;
     }
     let x = x.map(|axis| axis ^ parity);
-    (0..BITS).rev().fold(0, |key, level| {
-        x.iter().fold(key, |key, axis| key << 1 | u64::from(axis >> level & 1))
-    })
+    (0..BITS).rev().fold(0, |key, level| x.iter().fold(key, |key, axis| key << 1 | u64::from(axis >> level & 1)))
 }
 
 #[cfg(test)]
@@ -74,8 +72,7 @@ mod tests {
     #[test]
     fn consecutive_cells_of_the_curve_touch() {
         // The 8³ cells at the corner of the grid are a Hilbert curve of their own.
-        let mut cells: Vec<[u32; 3]> =
-            (0..512).map(|c| [c & 7, c >> 3 & 7, c >> 6]).collect();
+        let mut cells: Vec<[u32; 3]> = (0..512).map(|c| [c & 7, c >> 3 & 7, c >> 6]).collect();
         cells.sort_by_key(|&cell| position_of_cell(cell));
         for pair in cells.windows(2) {
             let steps: u32 = (0..3).map(|a| pair[0][a].abs_diff(pair[1][a])).sum();

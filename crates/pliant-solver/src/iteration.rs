@@ -6,7 +6,7 @@ use crate::analysis::Layout;
 use crate::energy::{DIRECT_BELOW, vertex_energies};
 use crate::neighborhoods::Neighborhoods;
 use crate::parallel::{CHUNK, chunks, chunks_summed};
-use crate::rotations::best_rotation;
+use crate::rotations::{Ties, best_rotation};
 use crate::sums::{edge_pulls, edge_vectors, neighborhood_sum, prefix_sums, vertex_pulls};
 use crate::system::System;
 use crate::transpose::Transpose;
@@ -99,7 +99,14 @@ impl Workspace {
 
     /// Given R, the p' of least energy (3.2.1): solves for the correction, p' ← p' + A⁻¹ (b − A p'), so that rounding of
     /// one solve is mended by the next and distance from the origin costs nothing.
-    pub(crate) fn global(&mut self, layout: &Layout, rings: &Rings, system: &mut System, is_fixed: &[bool], pose: &mut Pose) {
+    pub(crate) fn global(
+        &mut self,
+        layout: &Layout,
+        rings: &Rings,
+        system: &mut System,
+        is_fixed: &[bool],
+        pose: &mut Pose,
+    ) {
         let r = &rings.neighborhoods.r[..];
         let now = (&pose.positions[..], &pose.rotations[..]);
         edge_pulls(layout, (&rings.transpose, r), &rings.stiffness, now, &mut self.pulls);
@@ -119,8 +126,8 @@ impl Workspace {
         });
     }
 
-    /// Given p', the R of least energy (3.2.2).
-    pub(crate) fn local(&mut self, layout: &Layout, rings: &Rings, pose: &mut Pose) -> LocalOutcome {
+    /// Given p', the R of least energy (3.2.2). `as_paper`: ties are decided by nothing, see [`Ties`].
+    pub(crate) fn local(&mut self, layout: &Layout, rings: &Rings, pose: &mut Pose, as_paper: bool) -> LocalOutcome {
         let Workspace { edge_now, prefix, slot_bounds, partial, .. } = self;
         let scale = edge_vectors(layout, &rings.stiffness, &pose.positions, edge_now, partial);
         if !prefix.is_empty() {
@@ -130,7 +137,7 @@ impl Workspace {
             let mut gain = 0.0;
             for (k, (rotation, turn)) in (first..).zip(rotations.iter_mut().zip(turns)) {
                 let t = neighborhood_sum(layout, &rings.neighborhoods, edge_now, prefix, k);
-                *turn = best_rotation(t, *turn);
+                *turn = best_rotation(t, *turn, if as_paper { Ties::Arbitrary(k as u32) } else { Ties::Nudged });
                 *rotation = DMat3::from_quat(*turn);
                 gain += rotation.x_axis.dot(t.x_axis) + rotation.y_axis.dot(t.y_axis) + rotation.z_axis.dot(t.z_axis);
             }

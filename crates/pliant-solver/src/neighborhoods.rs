@@ -85,7 +85,9 @@ impl Neighborhoods {
                 Some((_, found)) => runs.extend_from_slice(found),
                 None => runs.extend_from_slice(self.runs(k)),
             }
-            offsets.push(u32::try_from(runs.len()).map_err(|_| SolveError::TooLarge { what: "the set of neighborhoods" })?);
+            offsets.push(
+                u32::try_from(runs.len()).map_err(|_| SolveError::TooLarge { what: "the set of neighborhoods" })?,
+            );
         }
         (self.offsets, self.runs) = (offsets, runs);
         Ok(())

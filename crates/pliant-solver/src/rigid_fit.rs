@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DQuat, DVec3};
 
-use crate::rotations::best_rotation;
+use crate::rotations::{Ties, best_rotation};
 use crate::sums::outer;
 
 /// x ↦ to + R (x − from).
@@ -24,7 +24,7 @@ impl RigidMotion {
             to += (now - to) / n;
         }
         let t = pairs.fold(DMat3::ZERO, |t, (rest, now)| t + outer(now - to, rest - from));
-        RigidMotion { rotation: best_rotation(t, otherwise), from, to }
+        RigidMotion { rotation: best_rotation(t, otherwise, Ties::Nearest), from, to }
     }
 
     /// The image of a point.

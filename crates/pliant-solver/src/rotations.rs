@@ -12,8 +12,9 @@
 //! (a large turn, or nearly a tie) the top eigenvector of N is taken (Horn 1987), by Jacobi's method. In both ways only
 //! rotations are looked at: reflected, flat and straight neighborhoods need no correction of signs.
 //!
-//! Where several rotations are equally good (a straight chain, a single edge), the one nearest to the previous
-//! rotation is taken.
+//! Several rotations are equally good where all edges point one way, at rest (a straight chain, a single edge) or now (a
+//! neighborhood that the global step has squeezed onto a line). If the previous rotation is as good as one of them, it
+//! stays; otherwise the caller says which to prefer. See [`Ties`].
 
 use glam::{DMat3, DQuat, DVec3, DVec4};
 
@@ -25,19 +26,62 @@ const LAST_STEP: f64 = 1e-8;
 const LARGEST_STEP: f64 = 0.5;
 /// Pivots of H, relative to the largest entry of T, below which the maximum is too flat for Newton's method.
 const FLAT: f64 = 1e-6;
-/// Eigenvalues of N closer than this to the largest (relative) are a tie: some hundred times the rounding of sums.
-const TIE: f64 = 1e-12;
+/// Eigenvalues of N closer than this to the largest (relative) are a tie: ten times the rounding of positions that a solve
+/// leaves after a jump across a bar of a hundred cells.
+const TIE: f64 = 1e-10;
+/// How well the previous rotation must fit to stay in a tie: the cosine of half the angle to the nearest best one, 0.2.
+const SETTLED: f64 = 0.995;
+/// A small turn about no particular axis, 0.01 radians: what symmetric motions need to leave their symmetry. Nearly as
+/// small as can be, and large enough to grow in few iterations (by eye).
+const NUDGE: DVec3 = DVec3::new(0.003, -0.005, 0.008_1);
 
-/// The rotation R that maximizes ⟨R, T⟩; `previous` is where the search begins and what decides ties.
-pub(crate) fn best_rotation(t: DMat3, previous: DQuat) -> DQuat {
+/// Which of several equally good rotations is taken, unless the previous one is among them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Ties {
+    /// The nearest to the previous one.
+    Nearest,
+    /// The nearest to the previous one turned by a hundredth of a radian. A neighborhood squeezed onto a line lies on a
+    /// ridge between valleys; staying exactly on it costs a bar bent by 180° ten times the energy.
+    Nudged,
+    /// Any: a random one, by this number. The paper takes what the singular value decomposition returns, which in a tie is
+    /// decided by rounding.
+    Arbitrary(u32),
+}
+
+impl Ties {
+    fn preferred(self, previous: DQuat) -> DQuat {
+        match self {
+            Ties::Nearest => previous,
+            Ties::Nudged => previous * DQuat::from_scaled_axis(NUDGE),
+            Ties::Arbitrary(number) => scattered(number),
+        }
+    }
+}
+
+/// A unit quaternion that looks random: the bits of the number mixed by multiplications and shifts.
+fn scattered(number: u32) -> DQuat {
+    let mut state = (u64::from(number) << 1 | 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    let mut next = || {
+        state ^= state >> 29;
+        state = state.wrapping_mul(0xd6e8_feb8_6659_fd93);
+        state ^= state >> 32;
+        (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    };
+    let q = DVec4::new(next(), next(), next(), next());
+    if q.length() > 1e-3 { DQuat::from_vec4(q.normalize()) } else { DQuat::IDENTITY }
+}
+
+/// The rotation R that maximizes ⟨R, T⟩; the search begins at `previous`.
+pub(crate) fn best_rotation(t: DMat3, previous: DQuat, ties: Ties) -> DQuat {
     let size = [t.x_axis, t.y_axis, t.z_axis].iter().fold(0.0, |size: f64, c| size.max(c.abs().max_element()));
     // Zero, too small to be divided by, or not finite: nothing to be learned.
     if !(f64::MIN_POSITIVE..=f64::MAX).contains(&size) {
         return previous;
     }
-    let t = t * (1.0 / size);
+    // By division: the reciprocal of a very small number overflows.
+    let t = DMat3::from_cols(t.x_axis / size, t.y_axis / size, t.z_axis / size);
     newton(t, previous).unwrap_or_else(|| {
-        let found = horn(t, previous);
+        let found = horn(t, previous, ties);
         newton(t, found).unwrap_or(found)
     })
 }
@@ -96,8 +140,8 @@ fn slope(b: DMat3) -> DVec3 {
     DVec3::new(b.y_axis.z - b.z_axis.y, b.z_axis.x - b.x_axis.z, b.x_axis.y - b.y_axis.x)
 }
 
-/// Top eigenvector of N; in a tie, the previous rotation projected to the top eigenspace.
-fn horn(t: DMat3, previous: DQuat) -> DQuat {
+/// Top eigenvector of N; in a tie, the previous or preferred rotation projected to the top eigenspace.
+fn horn(t: DMat3, previous: DQuat, ties: Ties) -> DQuat {
     let trace = t.x_axis.x + t.y_axis.y + t.z_axis.z;
     let g = slope(t);
     let s = t + t.transpose() - DMat3::from_diagonal(DVec3::splat(trace));
@@ -110,17 +154,16 @@ fn horn(t: DMat3, previous: DQuat) -> DQuat {
     let (values, vectors) = jacobi(n);
     let top = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let spread = values.iter().fold(0.0, |size: f64, v| size.max(v.abs()));
-    let before = DVec4::from(previous);
-    let (mut projected, mut best) = (DVec4::ZERO, DVec4::W);
-    for (&value, &vector) in values.iter().zip(&vectors) {
-        if value >= top - TIE * spread {
-            projected += vector * vector.dot(before);
-            best = vector;
-        }
-    }
-    // A previous rotation at right angles to the whole eigenspace says nothing.
-    let chosen = if projected.length() > 1e-6 { projected.normalize() } else { best };
-    DQuat::from_vec4(chosen)
+    let is_top = |value: f64| value >= top - TIE * spread;
+    let project = |q: DQuat| {
+        let best = values.iter().zip(&vectors).filter(|(value, _)| is_top(**value));
+        best.fold(DVec4::ZERO, |sum, (_, vector)| sum + *vector * vector.dot(DVec4::from(q)))
+    };
+    let settled = project(previous);
+    let chosen = if settled.length() > SETTLED { settled } else { project(ties.preferred(previous)) };
+    // A preferred rotation at right angles to the whole eigenspace says nothing.
+    let first = values.iter().zip(&vectors).find(|(value, _)| is_top(**value)).map_or(DVec4::W, |(_, vector)| *vector);
+    DQuat::from_vec4(if chosen.length() > 1e-6 { chosen.normalize() } else { first })
 }
 
 /// Eigenvalues and eigenvectors of a symmetric 4 × 4 matrix by cyclic Jacobi rotations.
@@ -157,4 +200,40 @@ fn jacobi(mut a: [[f64; 4]; 4]) -> ([f64; 4], [DVec4; 4]) {
         }
     }
     (std::array::from_fn(|i| a[i][i]), v)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::test_support::Random;
+
+    fn gain(q: DQuat, t: DMat3) -> f64 {
+        let r = DMat3::from_quat(q);
+        r.x_axis.dot(t.x_axis) + r.y_axis.dot(t.y_axis) + r.z_axis.dot(t.z_axis)
+    }
+
+    #[test]
+    fn newton_and_the_eigenvector_agree_and_nothing_nearby_is_better() {
+        let mut random = Random::new(11);
+        for case in 0..2000 {
+            let mut t = DMat3::from_cols(random.vector(), random.vector(), random.vector());
+            match case % 4 {
+                1 => t.z_axis = t.x_axis * 0.5,
+                2 => t = DMat3::from_cols(t.x_axis, t.x_axis * 2.0, t.x_axis * -0.3),
+                3 => t *= 1e-100,
+                _ => {}
+            }
+            let size = t.x_axis.length() + t.y_axis.length() + t.z_axis.length();
+            let start = DQuat::from_vec4(DVec4::from((random.vector(), random.signed())).normalize());
+            let best = best_rotation(t, start, Ties::Nearest);
+            assert!((best.length() - 1.0).abs() < 1e-14, "case {case}");
+            let found = gain(best, t);
+            let other = gain(best_rotation(t, DQuat::IDENTITY, Ties::Nearest), t);
+            assert!((found - other).abs() <= 1e-12 * size, "case {case}: {found} and {other}");
+            for _ in 0..20 {
+                let nearby = best * DQuat::from_scaled_axis(random.vector() * 0.3);
+                assert!(gain(nearby, t) <= found + 1e-12 * size, "case {case}: {} beats {found}", gain(nearby, t));
+            }
+        }
+    }
 }

@@ -52,6 +52,8 @@ pub struct Solver {
     /// Energy of the previous iteration, if it belongs to the same targets, held vertices and rigidity.
     pub(crate) comparable: Option<f64>,
     pub(crate) iteration: u64,
+    /// Whether the last start was [`Start::Rest`]: then ties of the local step are left open as in the paper.
+    pub(crate) from_rest: bool,
 }
 
 impl Solver {
@@ -89,6 +91,7 @@ impl Solver {
             energy: 0.0,
             comparable: None,
             iteration: 0,
+            from_rest: false,
             rings,
             held,
             analysis,
@@ -167,6 +170,7 @@ impl Solver {
     /// Begins anew from a [`Start`]; the iteration count returns to 0. The next half step is global.
     pub fn start(&mut self, start: Start) {
         self.iteration = 0;
+        self.from_rest = start == Start::Rest;
         match start {
             Start::Keep => {}
             Start::Rest => {
@@ -189,14 +193,18 @@ impl Solver {
     pub fn global_step(&mut self) {
         let layout = &self.analysis.layout;
         self.held.place(&layout.rest, &mut self.pose.positions);
-        self.workspace.global(layout, &self.rings, &mut self.system, &self.held.is_fixed, &mut self.pose);
+        // Coming from rest the correction is as large as the motion and so is its rounding; a second one removes it.
+        let solves = if self.from_rest && self.iteration == 0 { 2 } else { 1 };
+        for _ in 0..solves {
+            self.workspace.global(layout, &self.rings, &mut self.system, &self.held.is_fixed, &mut self.pose);
+        }
         self.iteration += 1;
     }
 
     /// The best rotations for the current positions (3.2.2), and the energy.
     pub fn local_step(&mut self) -> StepReport {
         let LocalOutcome { mut energy, scale } =
-            self.workspace.local(&self.analysis.layout, &self.rings, &mut self.pose);
+            self.workspace.local(&self.analysis.layout, &self.rings, &mut self.pose, self.from_rest);
         let noise = scale.abs();
         if energy.abs() <= ZERO_BELOW * noise {
             energy = 0.0;

@@ -41,7 +41,9 @@ pub(crate) fn edge_weights(mesh: &Mesh, weights: Weights) -> Vec<f64> {
         Weights::Uniform => vec![1.0; mesh.n_edges()],
         Weights::Cotangent => summed(mesh, raw_cotangents),
         Weights::Clamped => {
-            let mut w = summed(mesh, |corners| tame_cotangents(corners).map(|c| c.clamp(-LARGEST_COTANGENT, LARGEST_COTANGENT)));
+            let mut w = summed(mesh, |corners| {
+                tame_cotangents(corners).map(|c| c.clamp(-LARGEST_COTANGENT, LARGEST_COTANGENT))
+            });
             clamp(&mut w);
             w
         }

@@ -1,3 +1,5 @@
 //! Promises of the whole solver.
 
+mod facts;
 mod figures;
+mod robustness;

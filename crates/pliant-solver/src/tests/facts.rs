@@ -1,0 +1,171 @@
+//! What must hold for any shape: identities of the energy and its two steps.
+
+use glam::{DQuat, DVec3};
+
+use crate::test_support::{Random, arc, box_bar, bumpy_sheet, farthest, mixed_rigidity, plain_energy, solver};
+use crate::weights::edge_weights;
+use crate::{Mesh, Rigidity, Solver, Start, VertexId, Weights};
+
+/// A sheet with mixed r, three patches held, pulled apart at random.
+fn pulled_sheet(weights: Weights) -> (Mesh, Solver, Vec<DVec3>) {
+    let mesh = || bumpy_sheet(17);
+    let n = mesh().n_vertices();
+    let held: Vec<VertexId> = [3, 4, 5, 120, 121, 200, 280].map(VertexId).to_vec();
+    let mut random = Random::new(3);
+    let targets: Vec<DVec3> = held.iter().map(|v| mesh().positions()[v.index()] + random.vector() * 3.0).collect();
+    let mut solver = solver(mesh(), weights, &mixed_rigidity(n, 5), &held);
+    solver.set_targets(&targets).expect("finite");
+    (mesh(), solver, targets)
+}
+
+#[test]
+fn handles_at_rest_give_the_rest_pose() {
+    let mesh = bumpy_sheet(15);
+    let rest = mesh.positions().to_vec();
+    let mut solver = solver(mesh, Weights::Clamped, &mixed_rigidity(rest.len(), 4), &[VertexId(0), VertexId(99)]);
+    for start in [Start::Keep, Start::Rest, Start::Auto] {
+        solver.start(start);
+        let report = solver.step();
+        assert_eq!(report.energy, 0.0, "{start:?}");
+        let (vertex, distance) = farthest(&solver.positions(), &rest);
+        assert!(distance < 1e-12, "{start:?}: vertex {vertex} is off by {distance}");
+    }
+}
+
+#[test]
+fn one_rigid_motion_of_all_handles_is_found_with_no_energy() {
+    let mesh = bumpy_sheet(15);
+    let rest = mesh.positions().to_vec();
+    let held = [VertexId(0), VertexId(50), VertexId(99), VertexId(200)];
+    let turn = DQuat::from_axis_angle(DVec3::new(1.0, -2.0, 0.5).normalize(), 2.9);
+    let moved: Vec<DVec3> = rest.iter().map(|&p| turn * p + DVec3::new(30.0, -5.0, 8.0)).collect();
+    let mut solver = solver(mesh, Weights::Clamped, &mixed_rigidity(rest.len(), 4), &held);
+    solver.set_targets(&held.map(|v| moved[v.index()])).expect("finite");
+    solver.start(Start::Auto);
+    let report = solver.step();
+    let (vertex, distance) = farthest(&solver.positions(), &moved);
+    assert!(distance < 1e-10, "vertex {vertex} is off by {distance}");
+    assert_eq!(report.energy, 0.0);
+}
+
+#[test]
+fn the_energy_never_rises_and_is_that_of_a_direct_sum() {
+    for weights in [Weights::Clamped, Weights::Uniform] {
+        let (mesh, mut solver, targets) = pulled_sheet(weights);
+        let w = edge_weights(&mesh, weights);
+        let mut before = f64::INFINITY;
+        for _ in 0..30 {
+            let report = solver.step();
+            assert!(report.energy <= before, "{} after {before}", report.energy);
+            before = report.energy;
+            let r = solver.rigidity().as_slice().to_vec();
+            let plain = plain_energy(&mesh, &w, &r, &solver.positions(), &solver.rotations());
+            assert!((report.energy - plain).abs() <= 1e-10 * plain, "{} instead of {plain}", report.energy);
+            let shares: f64 = solver.vertex_energies().iter().sum();
+            assert!((shares - plain).abs() <= 1e-10 * plain, "shares: {shares} instead of {plain}");
+        }
+        let now = solver.positions();
+        for (held, target) in solver.held().iter().zip(targets) {
+            assert_eq!(now[held.index()], target, "handle {held:?}");
+        }
+    }
+}
+
+#[test]
+fn after_a_global_step_the_gradient_of_the_energy_vanishes() {
+    let (mesh, mut solver, _) = pulled_sheet(Weights::Clamped);
+    let w = edge_weights(&mesh, Weights::Clamped);
+    solver.step();
+    solver.global_step();
+    let (r, rotations) = (solver.rigidity().as_slice().to_vec(), solver.rotations());
+    let at = solver.positions();
+    let energy = |p: &[DVec3]| plain_energy(&mesh, &w, &r, p, &rotations);
+    for vertex in [17usize, 133, 250] {
+        for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
+            // The energy is quadratic: central differences are exact but for rounding.
+            let shifted = |h: f64| {
+                let mut p = at.clone();
+                p[vertex] += axis * h;
+                energy(&p)
+            };
+            let slope = (shifted(0.1) - shifted(-0.1)) / 0.2;
+            let curvature = (shifted(0.1) - 2.0 * energy(&at) + shifted(-0.1)) / 0.01;
+            assert!(slope.abs() < 1e-9 * curvature, "vertex {vertex}: slope {slope}, curvature {curvature}");
+        }
+    }
+}
+
+#[test]
+fn other_sizes_and_handles_later_are_as_good_as_from_the_beginning() {
+    let (mesh, mut late, _) = pulled_sheet(Weights::Clamped);
+    let n = mesh.n_vertices();
+    let held: Vec<VertexId> = [9, 77, 150].map(VertexId).to_vec();
+    let targets: Vec<DVec3> = held.iter().map(|v| mesh.positions()[v.index()] * 1.5).collect();
+    let rigidity = mixed_rigidity(n, 3);
+    late.step();
+    late.set_rigidity(&rigidity).expect("one size per vertex");
+    late.set_held(&held).expect("in range");
+    let mut fresh = solver(mesh, Weights::Clamped, &rigidity, &held);
+    for solver in [&mut late, &mut fresh] {
+        solver.set_targets(&targets).expect("finite");
+        solver.start(Start::Rest);
+        (0..5).for_each(|_| {
+            solver.step();
+        });
+    }
+    assert_eq!(late.positions(), fresh.positions());
+    assert_eq!(late.energy().to_bits(), fresh.energy().to_bits());
+}
+
+#[test]
+fn moving_and_scaling_the_scene_moves_and_scales_the_answer() {
+    let solve = |map: &dyn Fn(DVec3) -> DVec3| {
+        let bar = box_bar([20, 3, 3], DVec3::new(6.0, 1.0, 1.0));
+        let (held, targets) = arc(&bar, 6.0, 1.5);
+        let moved = bar.positions().iter().map(|&p| map(p)).collect();
+        let mesh = Mesh::new(moved, bar.triangles().to_vec()).expect("finite");
+        let n = mesh.n_vertices();
+        let mut solver = solver(mesh, Weights::Clamped, &Rigidity::uniform(n, 2), &held);
+        solver.set_targets(&targets.iter().map(|&p| map(p)).collect::<Vec<_>>()).expect("finite");
+        solver.start(Start::Rest);
+        (0..20).for_each(|_| {
+            solver.step();
+        });
+        solver.positions()
+    };
+    let plain = solve(&|p| p);
+    // Far away, coordinates have only ten digits after the point left; strains of that size are amplified by the solve.
+    for (scale, shift, tolerance) in [(1e6, 0.0, 1e-9), (1e-6, 0.0, 1e-9), (1.0, 1e6, 1e-6)] {
+        let shift = DVec3::splat(shift);
+        let back: Vec<DVec3> = solve(&|p| p * scale + shift).iter().map(|&p| (p - shift) / scale).collect();
+        let (vertex, distance) = farthest(&back, &plain);
+        assert!(distance < tolerance, "scale {scale}, shift {shift}: vertex {vertex} is off by {distance}");
+    }
+}
+
+#[test]
+fn relabeled_vertices_relabel_the_answer() {
+    let (mesh, mut solver, targets) = pulled_sheet(Weights::Clamped);
+    let n = mesh.n_vertices();
+    let name = |v: usize| (v * 10 + 3) % n;
+    let mut positions = vec![DVec3::ZERO; n];
+    let mut r = vec![1; n];
+    for v in 0..n {
+        positions[name(v)] = mesh.positions()[v];
+        r[name(v)] = solver.rigidity().as_slice()[v];
+    }
+    let triangles = mesh.triangles().iter().map(|t| t.map(|v| name(v as usize) as u32)).collect();
+    let other = Mesh::new(positions, triangles).expect("finite");
+    let held: Vec<VertexId> = solver.held().iter().map(|v| VertexId(name(v.index()) as u32)).collect();
+    let rigidity = Rigidity::new(r).expect("in range");
+    let mut renamed = crate::test_support::solver(other, Weights::Clamped, &rigidity, &held);
+    renamed.set_targets(&targets).expect("finite");
+    (0..20).for_each(|_| {
+        solver.step();
+        renamed.step();
+    });
+    let there = renamed.positions();
+    let back: Vec<DVec3> = (0..n).map(|v| there[name(v)]).collect();
+    let (vertex, distance) = farthest(&back, &solver.positions());
+    assert!(distance < 1e-9, "vertex {vertex} is off by {distance}");
+}
