@@ -1,0 +1,248 @@
+//! `pliant deform`: everything is read and checked first, then solved, then written; a refusal leaves no trace.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use glam::DVec3;
+use pliant_meshfile::{Format, MeshFile, Warning};
+use pliant_solver::{Mesh, Start, VertexId, Weights};
+
+use super::args::{DeformOptions, Method, StartChoice, WeightsChoice};
+use super::console::Console;
+use super::failure::Failure;
+use super::handles_file;
+use super::report::{DeformReport, MeshCounts, RigiditySummary, peak_memory_bytes};
+use super::rigidity::{self, ChosenRigidity};
+use super::solve::{Problem, Settings, milliseconds, solve};
+use super::staged::{Staged, check_target, same_file};
+
+/// Loose components named one by one; the others are only counted.
+const LOOSE_NAMED: usize = 5;
+
+pub(super) fn run(options: &DeformOptions, console: &mut Console<'_>) -> Result<(), Failure> {
+    check_options(options)?;
+    let threads = options.threads.unwrap_or(0);
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .map_err(|source| Failure::Threads { threads, source })?;
+    pool.install(|| run_in_pool(options, console))
+}
+
+fn run_in_pool(options: &DeformOptions, console: &mut Console<'_>) -> Result<(), Failure> {
+    let clock = Instant::now();
+    let mut job = load(options, console)?;
+    let load_ms = milliseconds(clock);
+
+    let mut solution = solve(&job.problem, settings(options), console)?;
+    solution.times.load = load_ms;
+    check_finite(&solution.positions, &job.file)?;
+    warn_of_loose(&solution.loose, &job.file, &mut job.warnings);
+
+    let mut report = report(options, &job, solution.energies);
+    report.converged = solution.converged;
+    report.max_handle_error = solution.max_handle_error;
+    report.times_ms = solution.times;
+    if options.check_intersections {
+        console.progress(|| "looking for crossings".to_owned());
+        let crossings = pliant_geometry::crossings(&solution.positions, job.problem.mesh.triangles());
+        report.self_intersections = Some(crossings.len());
+    }
+    write(options, &job, &solution.positions, clock, &mut report)?;
+
+    for warning in &report.warnings {
+        console.warn(warning);
+    }
+    console.summarize(&summary(options, &report));
+    Ok(())
+}
+
+/// Refuses what can be refused without reading a file.
+fn check_options(options: &DeformOptions) -> Result<(), Failure> {
+    let refuse = |option, value: String, allowed| Err(Failure::OutOfRange { option, value, allowed });
+    if options.max_iterations == 0 {
+        return refuse("--max-iterations", "0".to_owned(), "at least 1");
+    }
+    if !(options.tolerance >= 0.0 && options.tolerance.is_finite()) {
+        return refuse("--tolerance", options.tolerance.to_string(), "a number of at least 0");
+    }
+    if options.threads == Some(0) {
+        return refuse("--threads", "0".to_owned(), "at least 1");
+    }
+    if options.method == Method::Arap && options.rigidity.is_some() {
+        return Err(Failure::Usage(clap::Error::raw(
+            clap::error::ErrorKind::ArgumentConflict,
+            "--method arap is rigidity 1 everywhere and cannot be used with --rigidity\n",
+        )));
+    }
+    check_paths(options)
+}
+
+fn check_paths(options: &DeformOptions) -> Result<(), Failure> {
+    if Format::of(&options.output).is_none() {
+        return Err(Failure::UnknownExtension { path: options.output.clone() });
+    }
+    check_target(&options.output)?;
+    let mut inputs = vec![(options.handles.as_path(), "the handles")];
+    if let Some(file) = options.rigidity.as_deref().filter(|text| text.parse::<i128>().is_err()) {
+        // OUT may replace a mesh that carries r, but not a plain list of numbers; the report neither.
+        inputs.push((file.as_ref(), "the rigidity"));
+    }
+    if same_file(&options.output, &options.handles) {
+        return Err(Failure::SamePath { path: options.output.clone(), what: "OUT", other: "the handles" });
+    }
+    let Some(report) = &options.report else {
+        return Ok(());
+    };
+    check_target(report)?;
+    inputs.extend([(options.mesh.as_path(), "MESH"), (options.output.as_path(), "OUT")]);
+    match inputs.into_iter().find(|(path, _)| same_file(report, path)) {
+        Some((_, other)) => Err(Failure::SamePath { path: report.clone(), what: "the report", other }),
+        None => Ok(()),
+    }
+}
+
+/// Everything read and checked.
+struct Job {
+    file: MeshFile,
+    problem: Problem,
+    /// r to be written; none when nobody asked for any.
+    rigidity_to_save: Option<Vec<u16>>,
+    warnings: Vec<String>,
+}
+
+fn load(options: &DeformOptions, console: &mut Console<'_>) -> Result<Job, Failure> {
+    console.progress(|| format!("reading {}", options.mesh.display()));
+    let file = pliant_meshfile::open(&options.mesh)?;
+    let mut warnings: Vec<String> = file.warnings.iter().map(ToString::to_string).collect();
+    let mesh = Mesh::new(file.points(), file.point_triangles())
+        .map_err(|source| Failure::Mesh { path: options.mesh.clone(), source })?;
+    let handles = handles_file::read(&options.handles, &file)?;
+    let ChosenRigidity { rigidity, is_explicit, warning } = match options.method {
+        Method::Rring => rigidity::choose(options.rigidity.as_deref(), &file)?,
+        Method::Arap => rigidity::ones(&file),
+    };
+    warnings.extend(warning);
+    let rigidity_to_save = is_explicit.then(|| rigidity.as_slice().to_vec());
+    let problem = Problem { mesh: Arc::new(mesh), rigidity, handles };
+    Ok(Job { file, problem, rigidity_to_save, warnings })
+}
+
+fn settings(options: &DeformOptions) -> Settings {
+    Settings {
+        weights: match options.weights {
+            WeightsChoice::Clamped => Weights::Clamped,
+            WeightsChoice::Cotangent => Weights::Cotangent,
+            WeightsChoice::Uniform => Weights::Uniform,
+        },
+        start: match options.start {
+            StartChoice::Auto => Start::Auto,
+            StartChoice::Rest => Start::Rest,
+        },
+        max_iterations: options.max_iterations,
+        tolerance: options.tolerance,
+    }
+}
+
+/// A result that is not finite must never reach a file.
+fn check_finite(positions: &[DVec3], file: &MeshFile) -> Result<(), Failure> {
+    match positions.iter().position(|position| !position.is_finite()) {
+        Some(point) => Err(Failure::NotFinite { vertex: file.weld.vertex_of_point[point] as usize }),
+        None => Ok(()),
+    }
+}
+
+/// Says which parts nothing holds: they stay at rest while the rest moves on.
+fn warn_of_loose(loose: &[(usize, VertexId)], file: &MeshFile, warnings: &mut Vec<String>) {
+    let in_file = |vertex: VertexId| file.weld.vertex_of_point[vertex.index()];
+    let (single, large): (Vec<_>, Vec<_>) = loose.iter().copied().partition(|&(count, _)| count == 1);
+    for &(count, first) in large.iter().take(LOOSE_NAMED) {
+        let first = in_file(first);
+        warnings.push(format!("component of {count} vertices has no handle and stays at rest (first: vertex {first})"));
+    }
+    if let Some(&(_, first)) = large.get(LOOSE_NAMED) {
+        let more = large.len() - LOOSE_NAMED;
+        let first = in_file(first);
+        warnings.push(format!("{more} more components have no handle and stay at rest (first: vertex {first})"));
+    }
+    if let Some(&(_, first)) = single.first() {
+        let (count, first) = (single.len(), in_file(first));
+        let noun = if count == 1 {
+            "vertex has no edge, no handle and stays"
+        } else {
+            "vertices have no edge, no handle and stay"
+        };
+        warnings.push(format!("{count} {noun} at rest (first: vertex {first})"));
+    }
+}
+
+/// The report with everything known before the files are written.
+fn report(options: &DeformOptions, job: &Job, energies: Vec<f64>) -> DeformReport {
+    DeformReport {
+        mesh: MeshCounts::new(&job.file, &job.problem.mesh),
+        method: options.method.name(),
+        solver: options.solver.name(),
+        weights: options.weights.name(),
+        threads: rayon::current_num_threads(),
+        rigidity: RigiditySummary::new(&job.problem.rigidity),
+        converged: false,
+        iterations: energies.len(),
+        energies,
+        max_handle_error: 0.0,
+        self_intersections: None,
+        times_ms: super::report::DeformTimes::default(),
+        peak_memory_bytes: None,
+        warnings: job.warnings.clone(),
+    }
+}
+
+/// Writes OUT and the report. The report's bytes are on the disk under another name before OUT is touched, so that a
+/// full or read-only disk is noticed in time.
+fn write(
+    options: &DeformOptions,
+    job: &Job,
+    positions: &[DVec3],
+    clock: Instant,
+    report: &mut DeformReport,
+) -> Result<(), Failure> {
+    let mut staged = match &options.report {
+        Some(path) => {
+            let mut staged = Staged::create(path)?;
+            staged.write(&to_json(report))?;
+            Some(staged)
+        }
+        None => None,
+    };
+    let save_clock = Instant::now();
+    let lost: Vec<Warning> = job.file.save(&options.output, positions, job.rigidity_to_save.as_deref())?;
+    report.times_ms.save = milliseconds(save_clock);
+    report.times_ms.total = milliseconds(clock);
+    report.peak_memory_bytes = peak_memory_bytes();
+    report.warnings.extend(lost.iter().map(ToString::to_string));
+    if let Some(mut staged) = staged.take() {
+        staged.write(&to_json(report))?;
+        staged.commit()?;
+    }
+    Ok(())
+}
+
+fn to_json(report: &DeformReport) -> Vec<u8> {
+    let mut json = serde_json::to_vec_pretty(report).expect("numbers, texts and lists always have a JSON form");
+    json.push(b'\n');
+    json
+}
+
+fn summary(options: &DeformOptions, report: &DeformReport) -> String {
+    let state = if report.converged { "converged after" } else { "not converged after" };
+    let energy = report.energies.last().copied().unwrap_or_default();
+    let crossings = match report.self_intersections {
+        Some(count) => format!(", {count} pairs of triangles cross"),
+        None => String::new(),
+    };
+    format!(
+        "{}: {state} {} iterations, energy {energy:.6e}{crossings}, {:.0} ms",
+        options.output.display(),
+        report.iterations,
+        report.times_ms.total
+    )
+}

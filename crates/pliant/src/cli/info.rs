@@ -1,0 +1,146 @@
+//! `pliant info`: what is in a mesh file, for people or, with `--json`, for programs.
+
+use std::fmt::Write;
+
+use pliant_meshfile::MeshFile;
+use pliant_solver::{Defects, Mesh};
+use serde::Serialize;
+
+use super::args::InfoOptions;
+use super::console::Console;
+use super::failure::Failure;
+use super::handles_file::bounds;
+use super::report::{MeshCounts, RigiditySummary};
+use super::rigidity;
+
+/// Everything `info` says; the field names are those of `--json`.
+#[derive(Debug, Serialize)]
+struct Facts {
+    file: String,
+    mesh: MeshCounts,
+    bounds: Bounds,
+    defects: DefectCounts,
+    parts: Vec<PartFacts>,
+    has_uvs: bool,
+    has_colors: bool,
+    /// Null when the file carries none.
+    rigidity: Option<RigiditySummary>,
+    warnings: Vec<String>,
+}
+
+/// In the file's units and axes.
+#[derive(Debug, Serialize)]
+struct Bounds {
+    min: [f64; 3],
+    max: [f64; 3],
+}
+
+#[derive(Debug, Serialize)]
+struct DefectCounts {
+    boundary_edges: usize,
+    non_manifold_edges: usize,
+    inconsistent_edges: usize,
+    degenerate_faces: usize,
+    duplicate_faces: usize,
+    unreferenced_vertices: usize,
+}
+
+#[derive(Debug, Serialize)]
+struct PartFacts {
+    name: String,
+    faces: usize,
+}
+
+pub(super) fn run(options: &InfoOptions, console: &mut Console<'_>) -> Result<(), Failure> {
+    console.progress(|| format!("reading {}", options.mesh.display()));
+    let file = pliant_meshfile::open(&options.mesh)?;
+    let mesh = Mesh::new(file.points(), file.point_triangles())
+        .map_err(|source| Failure::Mesh { path: options.mesh.clone(), source })?;
+    let facts = facts(options, &file, &mesh)?;
+    let text = if options.json {
+        let json = serde_json::to_string_pretty(&facts);
+        json.expect("numbers, texts and lists always have a JSON form") + "\n"
+    } else {
+        describe(&facts)
+    };
+    console.clear_progress();
+    console.print(&text);
+    Ok(())
+}
+
+fn facts(options: &InfoOptions, file: &MeshFile, mesh: &Mesh) -> Result<Facts, Failure> {
+    let chosen = rigidity::choose(None, file)?;
+    let (min, max) = bounds(&file.positions);
+    let mut warnings: Vec<String> = file.warnings.iter().map(ToString::to_string).collect();
+    warnings.extend(chosen.warning);
+    let parts = file.parts.iter().map(|part| PartFacts { name: part.name.clone(), faces: part.triangles.len() });
+    Ok(Facts {
+        file: options.mesh.display().to_string(),
+        mesh: MeshCounts::new(file, mesh),
+        bounds: Bounds { min: min.to_array(), max: max.to_array() },
+        defects: count(mesh.defects()),
+        parts: parts.collect(),
+        has_uvs: file.uvs.is_some(),
+        has_colors: file.colors.is_some(),
+        rigidity: chosen.is_explicit.then(|| RigiditySummary::new(&chosen.rigidity)),
+        warnings,
+    })
+}
+
+fn count(defects: Defects) -> DefectCounts {
+    let Defects {
+        boundary_edges,
+        non_manifold_edges,
+        degenerate_faces,
+        duplicate_faces,
+        unreferenced_vertices,
+        inconsistent_edges,
+    } = defects;
+    DefectCounts {
+        boundary_edges,
+        non_manifold_edges,
+        inconsistent_edges,
+        degenerate_faces,
+        duplicate_faces,
+        unreferenced_vertices,
+    }
+}
+
+fn describe(facts: &Facts) -> String {
+    let Facts { file, mesh, bounds, defects, parts, rigidity, warnings, .. } = facts;
+    let mut text = format!("{file}\n{mesh}");
+    let mut line = |name: &str, value: String| {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "  {name:<12}{value}");
+    };
+    let corner = |[x, y, z]: [f64; 3]| format!("({x}, {y}, {z})");
+    line("bounds", format!("{} to {}", corner(bounds.min), corner(bounds.max)));
+    line("defects", defects.to_string());
+    match rigidity {
+        Some(rigidity) => line("rigidity", rigidity.to_string()),
+        None => line("rigidity", "none in the file".to_owned()),
+    }
+    for part in parts {
+        line("part", format!("{} ({} faces)", part.name.escape_default(), part.faces));
+    }
+    for warning in warnings {
+        line("warning", warning.clone());
+    }
+    text
+}
+
+impl std::fmt::Display for DefectCounts {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let all = [
+            (self.boundary_edges, "boundary edges"),
+            (self.non_manifold_edges, "non-manifold edges"),
+            (self.inconsistent_edges, "edges between faces of opposite orientation"),
+            (self.degenerate_faces, "degenerate faces"),
+            (self.duplicate_faces, "duplicate faces"),
+            (self.unreferenced_vertices, "unreferenced vertices"),
+        ];
+        let found: Vec<String> =
+            all.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}")).collect();
+        if found.is_empty() { f.write_str("none") } else { f.write_str(&found.join(", ")) }
+    }
+}

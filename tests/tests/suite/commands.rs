@@ -1,0 +1,123 @@
+//! `info`, `render`, help and usage.
+
+use pliant_tests::program::{Folder, pliant};
+use pliant_tests::shapes::bar;
+use serde_json::{Value, json};
+
+/// A square of two triangles, one of them twice, one without area, and a vertex that nothing uses.
+const DEFECTS: &str = "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nv 9 9 9\nf 1 2 3\nf 1 3 4\nf 1 3 4\nf 1 2 2\n";
+
+#[test]
+fn info_counts_parts_and_defects() {
+    let folder = Folder::new();
+    let mesh = folder.write("defects.obj", DEFECTS);
+    let outcome = pliant(["info", &mesh, "--json"]).expect_done();
+    let facts: Value = serde_json::from_str(&outcome.out).expect("JSON");
+    assert_eq!([&facts["mesh"]["vertices"], &facts["mesh"]["surface_points"]], [5, 5]);
+    assert_eq!(facts["mesh"]["components"], json!(2));
+    assert_eq!(facts["bounds"], json!({"min": [0.0, 0.0, 0.0], "max": [9.0, 9.0, 9.0]}));
+    for defect in ["duplicate_faces", "unreferenced_vertices"] {
+        assert_eq!(facts["defects"][defect], json!(1), "{defect}: {}", facts["defects"]);
+    }
+    assert!(facts["defects"]["boundary_edges"].is_u64() && facts["defects"]["non_manifold_edges"].is_u64());
+    assert_eq!(facts["rigidity"], Value::Null);
+    assert!(facts["parts"].is_array() && facts["warnings"].is_array());
+    let text = pliant(["info", &mesh]).expect_done().out;
+    for words in ["defects.obj", "vertices    5", "1 duplicate faces", "1 unreferenced vertices"] {
+        assert!(text.contains(words), "{text}\ndoes not say {words:?}");
+    }
+}
+
+#[test]
+fn info_of_a_sound_closed_mesh_finds_no_defects() {
+    let folder = Folder::new();
+    let mesh = folder.write("bar.obj", bar([4, 2, 2], [2.0, 1.0, 1.0]).obj());
+    let facts: Value = serde_json::from_str(&pliant(["info", &mesh, "--json"]).expect_done().out).expect("JSON");
+    for (defect, count) in facts["defects"].as_object().expect("an object") {
+        assert_eq!(count, &json!(0), "{defect}");
+    }
+    assert_eq!(facts["mesh"]["components"], json!(1));
+}
+
+#[test]
+fn render_writes_a_picture_of_the_size_asked_for_with_the_surface_in_it() {
+    let folder = Folder::new();
+    let mesh = folder.write("bar.obj", bar([8, 2, 2], [4.0, 1.0, 1.0]).obj());
+    let mut pictures = Vec::new();
+    for (name, more) in [
+        ("plain.png", vec![]),
+        ("stiff.png", vec!["--color", "rigidity", "--rigidity", "6"]),
+        ("soft.png", vec!["--color", "rigidity"]),
+        ("energy.png", vec!["--color", "energy"]),
+    ] {
+        let picture = folder.path(name);
+        let mut arguments = vec!["render", &mesh, "-o", &picture, "--size", "320x200"];
+        arguments.extend(more);
+        pliant(arguments).expect_done();
+        let pixels = image::open(&picture).expect("a PNG").to_rgb8();
+        assert_eq!(pixels.dimensions(), (320, 200), "{name}");
+        assert!(stands_out(&pixels), "{name}: the middle looks like the corner");
+        pictures.push(pixels);
+    }
+    let middle = |index: usize| pictures[index].get_pixel(160, 100).0.map(i32::from);
+    let ([stiff_red, _, stiff_blue], [soft_red, _, soft_blue]) = (middle(1), middle(2));
+    assert!(stiff_red > stiff_blue && soft_blue > soft_red, "stiff {:?}, soft {:?}", middle(1), middle(2));
+}
+
+/// Whether the pixel in the middle differs clearly from the one in the corner (the color of zero energy is dark, and
+/// about 30 away from the background).
+fn stands_out(pixels: &image::RgbImage) -> bool {
+    let (width, height) = pixels.dimensions();
+    let pair = pixels.get_pixel(width / 2, height / 2).0.into_iter().zip(pixels.get_pixel(1, 1).0);
+    pair.map(|(a, b)| a.abs_diff(b)).max().is_some_and(|difference| difference > 20)
+}
+
+#[test]
+fn wrong_usage_ends_with_2_and_explains_itself() {
+    let full = ["deform", "a.obj", "--handles", "h.json", "-o", "b.obj"];
+    let with = |more: &[&'static str]| full.iter().chain(more).copied().collect::<Vec<_>>();
+    let wrong = [
+        vec!["deform"],
+        vec!["deform", "a.obj"],
+        vec!["deform", "a.obj", "--handles", "h.json"],
+        vec!["info"],
+        vec!["info", "a.obj", "--yaml"],
+        vec!["render", "a.obj"],
+        vec!["render", "a.obj", "-o", "b.png", "--size", "large"],
+        vec!["render", "a.obj", "-o", "b.png", "--color", "pink"],
+        vec!["--unknown"],
+        with(&["--method", "magic"]),
+        with(&["--weights", "heavy"]),
+        with(&["--start", "late"]),
+        with(&["--max-iterations", "many"]),
+        with(&["--tolerance", "low"]),
+        with(&["--threads", "-1"]),
+        with(&["--method", "arap", "--rigidity", "3"]),
+    ];
+    for arguments in wrong {
+        let outcome = pliant(&arguments);
+        assert_eq!(outcome.code, 2, "{arguments:?}: {}", outcome.err);
+        assert!(outcome.err.starts_with("error: "), "{arguments:?}: {}", outcome.err);
+        assert_eq!(outcome.out, "", "{arguments:?}");
+    }
+}
+
+#[test]
+fn every_command_explains_itself_with_an_example() {
+    for arguments in [vec!["--help"], vec!["deform", "--help"], vec!["info", "--help"], vec!["render", "--help"]] {
+        let outcome = pliant(&arguments).expect_done();
+        assert!(outcome.out.contains("Example"), "{arguments:?}: {}", outcome.out);
+        assert_eq!(outcome.err, "", "{arguments:?}");
+    }
+    assert!(pliant(["--version"]).expect_done().out.starts_with("pliant "));
+}
+
+#[test]
+fn quiet_says_nothing_when_all_is_well() {
+    let folder = Folder::new();
+    let mesh = folder.write("defects.obj", DEFECTS);
+    let handles = folder.write("handles.json", r#"{"fixed": [0, 1]}"#);
+    let out = folder.path("out.obj");
+    let outcome = pliant(["deform", &mesh, "--handles", &handles, "-o", &out, "--quiet"]).expect_done();
+    assert_eq!((outcome.out.as_str(), outcome.err.as_str()), ("", ""));
+}

@@ -1,0 +1,12 @@
+//! Promises that cross crates, in one test binary.
+
+mod agreement;
+mod commands;
+mod editor;
+mod editor_window;
+mod paper_figures;
+mod process;
+mod refusals;
+mod reports;
+mod shaders;
+mod viewport;
