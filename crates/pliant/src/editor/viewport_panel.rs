@@ -6,13 +6,15 @@ use egui::{Event, PointerButton, Pos2, Rect};
 use glam::{Vec2, Vec3};
 use pliant_solver::{Rigidity, VertexId};
 
-use super::{ColorBy, Sample, Session, theme};
+use super::{ColorBy, NoticeKind, Sample, Session, theme};
 use crate::document::{GroupKind, Selection};
 use crate::tools::{Cursor, Input, Modifiers, Pointer};
-use crate::viewport::{Coloring, Dot, Line, Renderer, SurfaceFrame, ViewScene, samples_for};
+use crate::viewport::{
+    Coloring, DeviceWatch, Dot, Line, Renderer, SurfaceFrame, ViewScene, samples_for, watch_device,
+};
 
 /// Larger groups show only some of their vertices: thousands of dots hide the surface (by eye).
-const DOTS_PER_GROUP: usize = 300;
+const DOTS_PER_GROUP: usize = 100;
 /// Zoom for one point of scrolling; a notch of a common wheel is 50 points or a factor of 1.13 (by eye).
 const ZOOM_PER_POINT: f32 = 0.0025;
 
@@ -39,6 +41,8 @@ struct Cache {
 pub(super) struct ViewportPanel {
     renderer: Renderer,
     render_state: eframe::egui_wgpu::RenderState,
+    watch: DeviceWatch,
+    has_told_of_loss: bool,
     texture: Option<(egui::TextureId, u64)>,
     gesture: Option<Gesture>,
     /// The button that began the gesture: only its release ends it.
@@ -57,6 +61,8 @@ impl ViewportPanel {
         ViewportPanel {
             renderer: Renderer::new(&render_state.device, &render_state.queue, samples_for(&info)),
             is_software: info.device_type == wgpu::DeviceType::Cpu,
+            watch: watch_device(&render_state.device),
+            has_told_of_loss: false,
             render_state: render_state.clone(),
             drawing: std::time::Duration::ZERO,
             texture: None,
@@ -75,6 +81,7 @@ impl ViewportPanel {
             response.request_focus(); // takes the keyboard away from text fields
         }
         session.set_viewport_size(to_vec(rect.size()));
+        self.tell_of_trouble(session);
         self.take_input(ui, &response, rect, session);
         self.paint(ui, rect, session);
         if let Some(cursor) = session.with_tool(|tool, _| tool.cursor())
@@ -87,6 +94,20 @@ impl ViewportPanel {
                 (_, Cursor::Grab) => egui::CursorIcon::Grab,
                 (_, Cursor::Grabbing) => egui::CursorIcon::Grabbing,
             });
+        }
+    }
+
+    /// The mesh lives on the CPU, so that it can be saved even when the picture cannot be drawn any more.
+    fn tell_of_trouble(&mut self, session: &mut Session) {
+        if let Some(error) = self.watch.take_error() {
+            session.notices.push(NoticeKind::Warning, format!("The picture may be wrong: {error}"));
+        }
+        if !self.has_told_of_loss
+            && let Some(why) = self.watch.lost()
+        {
+            self.has_told_of_loss = true;
+            let text = format!("The graphics device was lost ({why}). Save your work (Ctrl+S) and start Pliant again");
+            session.notices.push(NoticeKind::Error, text);
         }
     }
 
