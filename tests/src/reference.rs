@@ -217,9 +217,9 @@ fn fit(edges: &[Edge], neighborhood: &[usize], positions: &[Vector]) -> Matrix {
     for &number in neighborhood {
         let edge = &edges[number];
         let posed = minus(positions[edge.ends[0]], positions[edge.ends[1]]);
-        for row in 0..3 {
-            for column in 0..3 {
-                sum[row][column] += edge.weight * edge.rest[row] * posed[column];
+        for (row, rest) in sum.iter_mut().zip(edge.rest) {
+            for (entry, posed) in row.iter_mut().zip(posed) {
+                *entry += edge.weight * rest * posed;
             }
         }
     }
