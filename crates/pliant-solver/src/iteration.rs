@@ -126,8 +126,8 @@ impl Workspace {
         });
     }
 
-    /// Given p', the R of least energy (3.2.2). `as_paper`: ties are decided by nothing, see [`Ties`].
-    pub(crate) fn local(&mut self, layout: &Layout, rings: &Rings, pose: &mut Pose, as_paper: bool) -> LocalOutcome {
+    /// Given p', the R of least energy (3.2.2).
+    pub(crate) fn local(&mut self, layout: &Layout, rings: &Rings, pose: &mut Pose, ties: Ties) -> LocalOutcome {
         let Workspace { edge_now, prefix, slot_bounds, partial, .. } = self;
         let scale = edge_vectors(layout, &rings.stiffness, &pose.positions, edge_now, partial);
         if !prefix.is_empty() {
@@ -137,7 +137,7 @@ impl Workspace {
             let mut gain = 0.0;
             for (k, (rotation, turn)) in (first..).zip(rotations.iter_mut().zip(turns)) {
                 let t = neighborhood_sum(layout, &rings.neighborhoods, edge_now, prefix, k);
-                *turn = best_rotation(t, *turn, if as_paper { Ties::Arbitrary(k as u32) } else { Ties::Nudged });
+                *turn = best_rotation(t, *turn, ties);
                 *rotation = DMat3::from_quat(*turn);
                 gain += rotation.x_axis.dot(t.x_axis) + rotation.y_axis.dot(t.y_axis) + rotation.z_axis.dot(t.z_axis);
             }

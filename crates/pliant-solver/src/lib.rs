@@ -35,8 +35,8 @@
 //! - Weights are clamped by default, because unequal d_e can make the raw system indefinite; the raw ones are there.
 //! - Rotations come from Newton's method on quaternions and the top eigenvector of a 4 × 4 matrix instead of a singular
 //!   value decomposition. They maximize over rotations only, so no sign has to be mended.
-//! - Where the local step is a tie, the paper takes what rounding decides. Here the previous rotation decides, or after
-//!   [`Start::Rest`] a fixed scattering.
+//! - Where the local step is a tie, the paper takes what rounding decides, and so does [`Start::Rest`]. Otherwise the
+//!   previous rotation decides.
 //! - Iterations begin from the current pose ([`Start::Keep`]) or from the best of several candidates ([`Start::Auto`]);
 //!   [`Start::Rest`] is the paper's beginning.
 //!

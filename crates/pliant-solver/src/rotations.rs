@@ -26,8 +26,8 @@ const LAST_STEP: f64 = 1e-8;
 const LARGEST_STEP: f64 = 0.5;
 /// Pivots of H, relative to the largest entry of T, below which the maximum is too flat for Newton's method.
 const FLAT: f64 = 1e-6;
-/// Eigenvalues of N closer than this to the largest (relative) are a tie: ten times the rounding of positions that a solve
-/// leaves after a jump across a bar of a hundred cells.
+/// Ten times the rounding of positions that a solve
+/// leaves after a jump across a bar of a hundred cells, relative to the largest eigenvalue of N.
 const TIE: f64 = 1e-10;
 /// How well the previous rotation must fit to stay in a tie: the cosine of half the angle to the nearest best one, 0.2.
 const SETTLED: f64 = 0.995;
@@ -43,32 +43,25 @@ pub(crate) enum Ties {
     /// The nearest to the previous one turned by a hundredth of a radian. A neighborhood squeezed onto a line lies on a
     /// ridge between valleys; staying exactly on it costs a bar bent by 180° ten times the energy.
     Nudged,
-    /// Any: a random one, by this number. The paper takes what the singular value decomposition returns, which in a tie is
-    /// decided by rounding.
-    Arbitrary(u32),
+    /// What the rounding of T makes of it, as with the singular value decomposition of the paper: there are no ties.
+    Rounding,
 }
 
 impl Ties {
     fn preferred(self, previous: DQuat) -> DQuat {
         match self {
-            Ties::Nearest => previous,
+            Ties::Nearest | Ties::Rounding => previous,
             Ties::Nudged => previous * DQuat::from_scaled_axis(NUDGE),
-            Ties::Arbitrary(number) => scattered(number),
         }
     }
-}
 
-/// A unit quaternion that looks random: the bits of the number mixed by multiplications and shifts.
-fn scattered(number: u32) -> DQuat {
-    let mut state = (u64::from(number) << 1 | 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-    let mut next = || {
-        state ^= state >> 29;
-        state = state.wrapping_mul(0xd6e8_feb8_6659_fd93);
-        state ^= state >> 32;
-        (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    };
-    let q = DVec4::new(next(), next(), next(), next());
-    if q.length() > 1e-3 { DQuat::from_vec4(q.normalize()) } else { DQuat::IDENTITY }
+    /// Eigenvalues of N closer than this to the largest, relative to it, are a tie.
+    fn width(self) -> f64 {
+        match self {
+            Ties::Nearest | Ties::Nudged => TIE,
+            Ties::Rounding => 0.0,
+        }
+    }
 }
 
 /// The rotation R that maximizes ⟨R, T⟩; the search begins at `previous`.
@@ -154,7 +147,7 @@ fn horn(t: DMat3, previous: DQuat, ties: Ties) -> DQuat {
     let (values, vectors) = jacobi(n);
     let top = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let spread = values.iter().fold(0.0, |size: f64, v| size.max(v.abs()));
-    let is_top = |value: f64| value >= top - TIE * spread;
+    let is_top = |value: f64| value >= top - ties.width() * spread;
     let project = |q: DQuat| {
         let best = values.iter().zip(&vectors).filter(|(value, _)| is_top(**value));
         best.fold(DVec4::ZERO, |sum, (_, vector)| sum + *vector * vector.dot(DVec4::from(q)))

@@ -9,6 +9,7 @@ use crate::energy::{NOISE, ZERO_BELOW, vertex_energies};
 use crate::held::Held;
 use crate::iteration::{LocalOutcome, Pose, Rings, Workspace};
 use crate::mesh::is_usable;
+use crate::rotations::Ties;
 use crate::system::{FactorError, System};
 use crate::{LooseComponents, Neighborhoods, Rigidity, SolveError, Start, VertexId, Weights};
 
@@ -193,18 +194,20 @@ impl Solver {
     pub fn global_step(&mut self) {
         let layout = &self.analysis.layout;
         self.held.place(&layout.rest, &mut self.pose.positions);
-        // Coming from rest the correction is as large as the motion and so is its rounding; a second one removes it.
-        let solves = if self.from_rest && self.iteration == 0 { 2 } else { 1 };
-        for _ in 0..solves {
-            self.workspace.global(layout, &self.rings, &mut self.system, &self.held.is_fixed, &mut self.pose);
+        if self.from_rest && self.iteration == 0 {
+            // The paper's p' = A⁻¹ b, with the rounding that decides its ties: a correction of nothing.
+            let free = self.pose.positions.iter_mut().zip(&self.held.is_fixed).filter(|(_, is_fixed)| !**is_fixed);
+            free.for_each(|(p, _)| *p = DVec3::ZERO);
         }
+        self.workspace.global(layout, &self.rings, &mut self.system, &self.held.is_fixed, &mut self.pose);
         self.iteration += 1;
     }
 
     /// The best rotations for the current positions (3.2.2), and the energy.
     pub fn local_step(&mut self) -> StepReport {
+        let ties = if self.from_rest { Ties::Rounding } else { Ties::Nudged };
         let LocalOutcome { mut energy, scale } =
-            self.workspace.local(&self.analysis.layout, &self.rings, &mut self.pose, self.from_rest);
+            self.workspace.local(&self.analysis.layout, &self.rings, &mut self.pose, ties);
         let noise = scale.abs();
         if energy.abs() <= ZERO_BELOW * noise {
             energy = 0.0;

@@ -40,13 +40,13 @@ fn figure_3_a_bent_bar_crosses_itself_at_rigidity_1_and_not_at_2_or_10() {
 
 /// Iterations that a plain implementation of the paper needs on the thin bar.
 ///
-/// At r = 1 the first global step squeezes whole lines of neighborhoods flat, and which of the equally good rotations
-/// they take decides the way: the reference needs 507 iterations, 500 and 504 with targets perturbed by 1e-13, 361 by
-/// 1e-10. From r = 2 on there is no such tie, and the counts are sharp to one iteration.
+/// At r = 1 the first global step squeezes whole lines of neighborhoods flat, and rounding decides which of the equally
+/// good rotations they take: the reference needs 507 iterations, and 500 and 504 with targets perturbed by 1e-13. From
+/// r = 2 on there is no such tie, and the counts are sharp to one iteration.
 #[test]
 fn table_1_iterations_fall_as_rigidity_grows() {
     let folder = Folder::new();
-    for (r, expected) in [("1", 340..=530), ("2", 161..=163), ("4", 90..=92), ("6", 62..=64), ("10", 43..=45)] {
+    for (r, expected) in [("1", 470..=550), ("2", 161..=163), ("4", 90..=92), ("6", 62..=64), ("10", 43..=45)] {
         let report = bend(&folder, &thin_bar(), 180.0, r, &[]);
         let iterations = report["iterations"].as_u64().expect("a number");
         assert!(expected.contains(&iterations), "r = {r}: {iterations} iterations, expected {expected:?}");
