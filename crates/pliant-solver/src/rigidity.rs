@@ -6,7 +6,12 @@ use crate::RigidityError;
 
 /// Neighborhood size r ≥ 1 of every vertex, in rings of edges. Immutable, cheap to clone.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Rigidity(Arc<[u16]>);
+pub struct Rigidity {
+    r: Arc<[u16]>,
+    min: u16,
+    max: u16,
+    sum: u64,
+}
 
 impl Rigidity {
     /// The largest size. By eye: far beyond the diameter of what moves at interactive rates.
@@ -14,7 +19,7 @@ impl Rigidity {
 
     /// The same size for all; an `r` outside 1..=[`Rigidity::MAX`] is brought to the nearest end.
     pub fn uniform(n_vertices: usize, r: u16) -> Rigidity {
-        Rigidity(vec![r.clamp(1, Self::MAX); n_vertices].into())
+        Rigidity::of_valid(vec![r.clamp(1, Self::MAX); n_vertices])
     }
 
     /// One size per vertex.
@@ -24,31 +29,37 @@ impl Rigidity {
     pub fn new(r: Vec<u16>) -> Result<Rigidity, RigidityError> {
         match r.iter().position(|r| !(1..=Self::MAX).contains(r)) {
             Some(vertex) => Err(RigidityError::OutOfRange { vertex, r: r[vertex], max: Self::MAX }),
-            None => Ok(Rigidity(r.into())),
+            None => Ok(Rigidity::of_valid(r)),
+        }
+    }
+
+    fn of_valid(r: Vec<u16>) -> Rigidity {
+        Rigidity {
+            min: r.iter().copied().min().unwrap_or(1),
+            max: r.iter().copied().max().unwrap_or(1),
+            sum: r.iter().map(|&r| u64::from(r)).sum(),
+            r: r.into(),
         }
     }
 
     /// One size per vertex, in the caller's numbering.
     pub fn as_slice(&self) -> &[u16] {
-        &self.0
+        &self.r
     }
 
-    /// The smallest size (1 for an empty list).
+    /// The smallest size, known already (1 for an empty list).
     pub fn min(&self) -> u16 {
-        self.0.iter().copied().min().unwrap_or(1)
+        self.min
     }
 
-    /// The largest size (1 for an empty list).
+    /// The largest size, known already (1 for an empty list).
     pub fn max(&self) -> u16 {
-        self.0.iter().copied().max().unwrap_or(1)
+        self.max
     }
 
-    /// The mean size (1 for an empty list).
+    /// The mean size, known already (1 for an empty list).
     pub fn mean(&self) -> f64 {
-        if self.0.is_empty() {
-            return 1.0;
-        }
-        self.0.iter().map(|&r| f64::from(r)).sum::<f64>() / self.0.len() as f64
+        if self.r.is_empty() { 1.0 } else { self.sum as f64 / self.r.len() as f64 }
     }
 }
 

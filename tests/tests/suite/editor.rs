@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use glam::{DVec3, Vec2};
-use pliant::document::{Command, Document, GroupKind, Model, SelectMode};
+use pliant::document::{Command, Document, GroupKind, Model, SelectMode, held_by};
 use pliant::editor::{Action, Job, NoticeKind, Opened, Sample, Session};
 use pliant::solving::SolveState;
 use pliant::tools::{BrushMode, Input, Modifiers, Pointer, SelectShape, ToolKey, ToolKind};
@@ -39,7 +39,7 @@ fn document(session: &Session) -> &Document {
     session.document().expect("an open document")
 }
 
-/// Polls until `done` says so. Ten seconds are an eternity here: a failure, not a slow machine.
+/// Polls until `done` says so. A minute is an eternity here: a failure, not a slow machine.
 fn wait_until(session: &mut Session, what: &str, done: impl Fn(&Session) -> bool) {
     let start = Instant::now();
     while !done(session) {
@@ -196,7 +196,104 @@ fn escape_takes_back_the_drag_under_way() {
     session.input(Input::Release(pointer(from)));
     settle(&mut session);
     assert_eq!(document(&session).scene().groups, before.scene.groups);
+    assert_eq!(document(&session).pose().positions, before.pose.positions, "the surface is not where it was");
     assert_eq!(document(&session).history().len(), 2, "the canceled drag left a step");
+}
+
+#[test]
+fn undo_in_the_middle_of_a_drag_takes_back_the_drag_and_nothing_more() {
+    let mut session = session_with(sheet(20));
+    for j in [2, 17] {
+        let at = on_screen(&session, middle(j));
+        click(&mut session, at);
+    }
+    let before = document(&session).scene().groups.clone();
+    let from = on_screen(&session, middle(17));
+    press_and_move(&mut session, from, from + Vec2::new(50.0, 0.0));
+    session.undo();
+    assert_eq!(document(&session).scene().groups, before);
+    assert_eq!(document(&session).history().len(), 2);
+}
+
+#[test]
+fn resetting_the_pose_during_a_drag_ends_at_rest_whatever_the_solver_still_reports() {
+    let mut session = session_with(sheet(20));
+    let rest = document(&session).pose().positions.clone();
+    session.apply(Command::Hold { kind: GroupKind::Anchor, vertices: (0..21).map(VertexId).collect() });
+    session.apply(Command::Hold { kind: GroupKind::Handle, vertices: vec![VertexId(middle(18))] });
+    let group = document(&session).scene().groups[1].id;
+    for round in 0..20_u32 {
+        let way = DVec3::new(0.0, 0.0, 0.1 + 0.01 * f64::from(round));
+        session.apply(Command::Move { group, motion: glam::DAffine3::from_translation(way) });
+        std::thread::sleep(Duration::from_millis(round.into()));
+        session.apply(Command::ResetPose);
+        settle(&mut session);
+        assert_eq!(document(&session).pose().positions, rest, "round {round}");
+    }
+}
+
+#[test]
+fn choosing_and_naming_things_does_not_disturb_the_solver() {
+    let mut session = session_with(sheet(20));
+    let at = on_screen(&session, middle(10));
+    click(&mut session, at);
+    settle(&mut session);
+    let revision = document(&session).revision();
+    let group = document(&session).scene().groups[0].id;
+    session.apply(Command::Select(vec![VertexId(3)], SelectMode::Replace));
+    session.apply(Command::Rename(group, "Ear".into()));
+    session.apply(Command::Activate(None));
+    assert_eq!(document(&session).revision(), revision);
+    assert_eq!(document(&session).scene().groups[0].name, "Ear");
+}
+
+#[test]
+fn front_only_selection_leaves_the_far_side_in_both_projections() {
+    use pliant::viewport::Projection;
+    for projection in [Projection::Perspective, Projection::Orthographic] {
+        let mut session = session_with(ball());
+        session.open_mut().expect("open").camera.projection = projection;
+        session.options.select_through = false;
+        session.take_tool(ToolKind::Select);
+        drag(&mut session, Vec2::new(1.0, 1.0), Vec2::new(799.0, 599.0));
+        let open = session.open().expect("open");
+        let positions = &open.surface.frame().positions;
+        let forward = open.camera.forward();
+        let selected = &document(&session).scene().selection;
+        for (v, position) in positions.iter().enumerate() {
+            // The ball has radius 1; a band around the outline may fall either way.
+            let depth = position.dot(forward);
+            let expected = if depth < -0.5 { Some(true) } else { (depth > 0.2).then_some(false) };
+            let got = selected.contains(VertexId(v as u32));
+            assert!(
+                expected.is_none_or(|expected| expected == got),
+                "{projection:?}: vertex {v} at depth {depth}: {got}"
+            );
+        }
+    }
+}
+
+/// An octahedron, each face cut into 64 and pushed out to radius 1.
+fn ball() -> MeshFile {
+    let corners = [DVec3::X, DVec3::Y, DVec3::Z, -DVec3::X, -DVec3::Y, -DVec3::Z];
+    let faces = [[0, 1, 2], [1, 3, 2], [3, 4, 2], [4, 0, 2], [1, 0, 5], [3, 1, 5], [4, 3, 5], [0, 4, 5]];
+    let n = 8;
+    let (mut positions, mut triangles) = (Vec::new(), Vec::new());
+    for [a, b, c] in faces.map(|face| face.map(|corner| corners[corner])) {
+        let mut vertex = |i: i32, j: i32| {
+            positions.push((a * f64::from(n - i - j) + b * f64::from(i) + c * f64::from(j)).normalize());
+            positions.len() as u32 - 1
+        };
+        for i in 0..n {
+            for j in 0..n - i {
+                triangles.push([vertex(i, j), vertex(i + 1, j), vertex(i, j + 1)]);
+                if i + j + 1 < n {
+                    triangles.push([vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)]);
+                }
+            }
+        }
+    }
+    MeshFile::from_triangles("ball", positions, triangles)
 }
 
 #[test]
@@ -257,8 +354,12 @@ fn softer_and_stiffer_change_each_vertex_once_a_stroke() {
     session.take_tool(ToolKind::Brush);
     session.options.brush_mode = BrushMode::Stiffer;
     let at = on_screen(&session, middle(10));
-    drag(&mut session, at, at + Vec2::new(60.0, 0.0));
-    assert_eq!(document(&session).scene().rigidity.max(), 5);
+    // In one go: several dabs fall on the same vertices before any of them is carried out.
+    session.input(Input::Press(pointer(at)));
+    session.input(Input::Drag(pointer(at + Vec2::new(60.0, 0.0))));
+    session.input(Input::Release(pointer(at + Vec2::new(60.0, 0.0))));
+    let stiffer = document(&session).scene().rigidity.as_slice()[middle(10) as usize];
+    assert_eq!((document(&session).scene().rigidity.max(), stiffer), (5, 5));
     session.options.brush_mode = BrushMode::Softer;
     drag(&mut session, at, at + Vec2::new(60.0, 0.0));
     assert_eq!((document(&session).scene().rigidity.min(), document(&session).scene().rigidity.max()), (4, 4));
@@ -273,7 +374,8 @@ fn fill_takes_the_selection_or_else_the_region_of_equal_rigidity() {
     session.choose_rigidity(9);
     let at = on_screen(&session, middle(4));
     click(&mut session, at);
-    let count = |session: &Session, r| document(session).scene().rigidity.as_slice().iter().filter(|&&x| x == r).count();
+    let count =
+        |session: &Session, r| document(session).scene().rigidity.as_slice().iter().filter(|&&x| x == r).count();
     assert_eq!(count(&session, 9), lower.len(), "the region of r = 3, and no more, was to become 9");
     session.apply(Command::Select((0..50).map(VertexId).collect(), SelectMode::Replace));
     session.choose_rigidity(2);
@@ -390,13 +492,44 @@ fn save(session: &mut Session, to: &Path) {
 }
 
 #[test]
+fn a_save_that_ends_after_another_mesh_was_opened_does_not_concern_that_mesh() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let mut session = session_with(sheet(20));
+    session.apply(Command::FillAll(3));
+    let (model, snapshot) = (document(&session).model().clone(), document(&session).snapshot());
+    session.start(Job::Save { model, snapshot, to: folder.path().join("first.glb") });
+    session.show(Opened::new(Arc::new(Model::from_file(sheet(4)).expect("a good mesh"))), None);
+    wait_until(&mut session, "saved", |session| session.running_job().is_none());
+    assert_eq!(session.open().expect("open").save_path, None, "saving would now overwrite the first mesh");
+}
+
+#[test]
+fn a_mesh_that_arrives_after_further_changes_is_not_shown_without_asking() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("other.obj");
+    std::fs::write(&path, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").expect("written");
+    let mut session = session_with(sheet(4));
+    session.start(Job::Open(path));
+    session.apply(Command::FillAll(5));
+    let start = Instant::now();
+    let mut events = Vec::new();
+    while events.is_empty() {
+        assert!(start.elapsed() < Duration::from_secs(60), "the mesh never arrived");
+        events = session.poll();
+    }
+    assert!(matches!(events[..], [pliant::editor::JobEvent::Opened { .. }]));
+    assert_eq!(document(&session).model().mesh.n_vertices(), 25);
+}
+
+#[test]
 fn every_sample_opens_and_bends() {
     for sample in Sample::ALL {
         let mut session = Session::new(|| {}).expect("a solver thread");
         session.start(Job::OpenSample(sample));
         wait_until(&mut session, "the sample is open", |session| session.document().is_some());
         let n = document(&session).model().mesh.n_vertices();
-        let held = document(&session).scene().held().0;
+        let held = held_by(&document(&session).scene().groups).0;
+        let rest = document(&session).pose().clone();
         assert!(!held.is_empty(), "{sample:?} comes without anchors");
         assert!(document(&session).history().is_empty() && !document(&session).is_modified());
         let free = (0..n as u32).map(VertexId).find(|v| !held.contains(v)).expect("a free vertex");
@@ -407,7 +540,7 @@ fn every_sample_opens_and_bends() {
         let revision = document(&session).revision();
         wait_until(&mut session, "the surface follows", |session| {
             let report = session.status.report.as_ref();
-            report.is_some_and(|report| report.revision == revision && report.pose.is_some())
+            report.is_some_and(|report| report.revision == revision) && *document(session).pose() != rest
         });
         assert!(document(&session).pose().positions.iter().all(|p| p.is_finite()), "{sample:?}");
     }
@@ -437,8 +570,10 @@ fn deleting_all_handles_and_placing_new_ones_keeps_the_pose() {
 fn every_action_without_a_document_says_what_to_do() {
     let session = Session::new(|| {}).expect("a solver thread");
     for &action in Action::ALL {
-        let needs_document =
-            !matches!(action, Action::Open | Action::Quit | Action::Tool(_) | Action::ToggleTheme | Action::Keys);
+        let needs_document = !matches!(
+            action,
+            Action::Open | Action::OpenSample(_) | Action::Quit | Action::Tool(_) | Action::ToggleTheme | Action::Keys
+        );
         assert_eq!(action.obstacle(&session).is_some(), needs_document, "{action:?}");
         assert!(!action.label().is_empty() && !action.tooltip().is_empty(), "{action:?}");
     }

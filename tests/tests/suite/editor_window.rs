@@ -232,14 +232,63 @@ fn two_digits_typed_quickly_are_one_rigidity() {
     assert_eq!(window.state_mut().session().options.rigidity, 15);
 }
 
+/// A file let go over the window.
+#[derive(Debug)]
+struct Dropped(std::path::PathBuf);
+
+impl egui::DroppedFile for Dropped {
+    fn path(&self) -> &std::path::Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        std::fs::read(&self.0).map_err(|error| error.to_string())
+    }
+}
+
+#[test]
+fn opening_a_sample_asks_before_painted_work_is_lost() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let mut window = window(folder.path());
+    window.state_mut().session().apply(pliant::document::Command::FillAll(4));
+    window.get_by_label("File").click();
+    window.run_steps(3);
+    window.get_by_label_contains("Open sample").click();
+    window.run_steps(3);
+    window.get_by_label("cactus").click();
+    window.run_steps(3);
+    assert!(window.query_by_label("Save your changes?").is_some(), "no question before the work is lost");
+    window.get_by_label("Cancel").click();
+    window.run_steps(3);
+    let kept = document(window.state_mut().session());
+    assert_eq!((kept.model().mesh.n_vertices(), kept.scene().rigidity.max()), (1154, 4));
+}
+
+#[test]
+fn a_click_on_the_legend_chooses_a_rigidity_and_does_nothing_to_the_surface() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let mut window = window(folder.path());
+    press(&mut window, egui::Key::G);
+    // Bring the surface behind the legend.
+    if let Some(open) = window.state_mut().session().open_mut() {
+        open.camera.distance *= 0.1;
+    }
+    window.run_steps(2);
+    let swatch = window.get_by_label("Rigidity 3").rect().center();
+    click(&mut window, swatch);
+    let session = window.state_mut().session();
+    assert_eq!(session.options.rigidity, 3);
+    assert!(document(session).history().is_empty(), "the click filled the surface behind the legend");
+}
+
 #[test]
 fn a_bad_file_dropped_on_the_window_becomes_a_notice_that_can_be_dismissed() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let mut window = window(folder.path());
     let bad = folder.path().join("bad.obj");
     std::fs::write(&bad, "f 1 2 3\n").expect("written");
-    let job = pliant::editor::Job::Open(bad);
-    window.state_mut().session().start(job);
+    window.input_mut().dropped_files.push(std::sync::Arc::new(Dropped(bad)));
+    window.step();
     step_until(&mut window, "the job ends", |session| session.running_job().is_none());
     window.run_steps(2);
     let session = window.state_mut().session();

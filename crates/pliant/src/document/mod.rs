@@ -16,5 +16,5 @@ pub use commands::{Command, CommandError, SelectMode};
 pub use fill::region_of_equal_rigidity;
 pub use history::{History, Snapshot};
 pub use model::{Model, ModelError};
-pub use scene::{Group, GroupId, GroupKind, Scene, Selection};
+pub use scene::{Group, GroupId, GroupKind, Scene, Selection, held_by};
 pub use state::{Document, Pose};

@@ -123,7 +123,10 @@ pub(crate) fn bounds_of(points: &[DVec3]) -> (DVec3, DVec3) {
 
 /// Vertex colors of the file, or the base color of the material of (one of) the faces around each point.
 fn base_colors(file: &MeshFile, n_points: usize) -> Option<Arc<[[u8; 4]]>> {
-    let plain = file.parts.iter().all(|part| part.base_color == [1.0; 4]);
+    // One gray for everything says nothing: the picture's own clay looks better.
+    let is_gray = |[r, g, b, _]: [f32; 4]| r == g && g == b;
+    let plain = file.parts.windows(2).all(|pair| pair[0].base_color == pair[1].base_color)
+        && file.parts.first().is_none_or(|part| is_gray(part.base_color));
     if plain && file.colors.is_none() {
         return None;
     }

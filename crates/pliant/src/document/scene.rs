@@ -21,7 +21,7 @@ pub enum GroupKind {
 }
 
 /// Vertices whose positions are prescribed together.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Group {
     /// Its lasting name for commands.
     pub id: GroupId,
@@ -35,6 +35,18 @@ pub struct Group {
     pub base: Arc<[DVec3]>,
     /// Motion of `base` since then, world space.
     pub motion: DAffine3,
+}
+
+/// Groups share their lists with older states of the scene, so most comparisons end at the pointers.
+impl PartialEq for Group {
+    fn eq(&self, other: &Group) -> bool {
+        self.id == other.id
+            && self.kind == other.kind
+            && self.motion == other.motion
+            && self.name == other.name
+            && (Arc::ptr_eq(&self.vertices, &other.vertices) || self.vertices == other.vertices)
+            && (Arc::ptr_eq(&self.base, &other.base) || self.base == other.base)
+    }
 }
 
 impl Group {
@@ -52,6 +64,12 @@ impl Group {
     pub fn center(&self) -> DVec3 {
         self.motion.transform_point3(self.base_center())
     }
+}
+
+/// Held vertices and the world positions they must take, group by group.
+pub fn held_by(groups: &[Group]) -> (Vec<VertexId>, Vec<DVec3>) {
+    let vertices = groups.iter().flat_map(|group| group.vertices.iter().copied()).collect();
+    (vertices, groups.iter().flat_map(Group::targets).collect())
 }
 
 /// A set of surface points, sorted. Cheap to clone.
@@ -127,11 +145,18 @@ impl Scene {
         self.groups.iter().find(|group| group.vertices.binary_search(&v).is_ok())
     }
 
-    /// Held vertices and the world positions they must take, group by group.
-    pub fn held(&self) -> (Vec<VertexId>, Vec<DVec3>) {
-        let vertices = self.groups.iter().flat_map(|group| group.vertices.iter().copied()).collect();
-        let targets = self.groups.iter().flat_map(Group::targets).collect();
-        (vertices, targets)
+    /// Whether the solver would be asked for the same: selection, names and the like do not matter to it.
+    pub(super) fn solves_like(&self, other: &Scene) -> bool {
+        let same_group = |(a, b): (&Group, &Group)| {
+            a.motion == b.motion
+                && (Arc::ptr_eq(&a.vertices, &b.vertices) || a.vertices == b.vertices)
+                && (Arc::ptr_eq(&a.base, &b.base) || a.base == b.base)
+        };
+        self.rigidity == other.rigidity
+            && self.weights == other.weights
+            && self.loose == other.loose
+            && self.groups.len() == other.groups.len()
+            && (Arc::ptr_eq(&self.groups, &other.groups) || self.groups.iter().zip(&*other.groups).all(same_group))
     }
 
     /// Approximate size of what this scene does not share with `other`, in bytes.
@@ -142,6 +167,9 @@ impl Scene {
         }
         if !Arc::ptr_eq(&self.groups, &other.groups) {
             bytes += size_of_val(&*self.groups);
+            let shares = |group: &Group| other.group(group.id).is_some_and(|o| Arc::ptr_eq(&o.base, &group.base));
+            let own = self.groups.iter().filter(|group| !shares(group));
+            bytes += own.map(|group| size_of_val(&*group.vertices) + size_of_val(&*group.base)).sum::<usize>();
         }
         if !std::ptr::eq(self.selection.vertices(), other.selection.vertices()) {
             bytes += size_of_val(self.selection.vertices());

@@ -17,8 +17,8 @@ pub struct Pose {
 
 /// What is being edited.
 ///
-/// Two counters order the talk with the solver. The *revision* goes up with every wish; the *epoch* goes up when the
-/// pose jumps (undo, redo, reset), so that positions computed before the jump can be told from those after it.
+/// Two counters order the talk with the solver. The *revision* goes up with everything that matters to it; the *epoch*
+/// goes up when the pose jumps (undo, redo, cancel, reset), so that positions computed before the jump can be told from those after it.
 pub struct Document {
     model: Arc<Model>,
     scene: Scene,
@@ -112,15 +112,16 @@ impl Document {
         let rest = self.model.mesh.positions();
         let around = Surroundings { now: &self.pose.positions, rest, next_group: &mut self.next_group };
         let next = changed(&self.scene, command, around)?;
-        let moves_surface = resets && *self.pose.positions != *rest;
+        // Positions that the solver is about to report may be bent although these are not.
+        let moves_surface = resets && (next != self.scene || *self.pose.positions != *rest);
         if next == self.scene && !moves_surface {
             return Ok(());
         }
         if is_step && self.open_step.is_none() {
             self.history.push(name, self.snapshot());
         }
+        self.revision += u64::from(!next.solves_like(&self.scene));
         self.scene = next;
-        self.revision += 1;
         if moves_surface {
             self.jump_to(Pose { positions: self.model.mesh.positions().into() });
         }
@@ -202,7 +203,7 @@ impl Document {
         }
     }
 
-    /// Goes up with every wish.
+    /// Goes up with everything that matters to the solver.
     pub fn revision(&self) -> u64 {
         self.revision
     }

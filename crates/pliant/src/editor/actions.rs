@@ -2,7 +2,7 @@
 
 use egui::{Key, KeyboardShortcut, Modifiers};
 
-use super::{Look, Session};
+use super::{Look, Sample, Session};
 use crate::document::{Command, GroupKind};
 use crate::tools::{Input, Options, ToolKey, ToolKind};
 use crate::viewport::{Axis, Projection, Shading, Theme};
@@ -12,6 +12,8 @@ use crate::viewport::{Axis, Projection, Shading, Theme};
 pub enum Action {
     /// Shows the open dialog.
     Open,
+    /// Opens a mesh of the program's own.
+    OpenSample(Sample),
     /// Writes to where it was last written, or asks.
     Save,
     /// Asks where to write.
@@ -69,6 +71,8 @@ pub enum Action {
 pub(super) enum WindowAction {
     /// Show the open dialog.
     Open,
+    /// Open a sample, unless changes would be lost.
+    OpenSample(Sample),
     /// Show the save dialog.
     SaveAs,
     /// Write to the known path.
@@ -123,6 +127,7 @@ impl Action {
     pub fn label(self) -> &'static str {
         match self {
             Action::Open => "Open…",
+            Action::OpenSample(sample) => sample.name(),
             Action::Save => "Save",
             Action::SaveAs => "Save as…",
             Action::Quit => "Quit",
@@ -160,6 +165,7 @@ impl Action {
     pub fn tooltip(self) -> &'static str {
         match self {
             Action::Open => "Open a mesh: OBJ, glTF or GLB. A file dropped on the window opens too",
+            Action::OpenSample(_) => "A mesh that comes with Pliant",
             Action::Save => "Write the bent mesh to where it was last saved",
             Action::SaveAs => "Write the bent mesh, with everything else the file held",
             Action::Quit => "Close the window",
@@ -204,7 +210,7 @@ impl Action {
             Action::SelectNone => command_shift(Key::A),
             Action::HandleFromSelection => command(Key::H),
             Action::AnchorFromSelection => command_shift(Key::H),
-            Action::HoldEverythingElse => None,
+            Action::OpenSample(_) | Action::HoldEverythingElse => None,
             Action::FillSelection => command(Key::F),
             Action::FillAll => None,
             Action::DeleteHandle => plain(Key::Delete),
@@ -230,8 +236,15 @@ impl Action {
     /// Why it cannot be done now, if it cannot.
     pub fn obstacle(self, session: &Session) -> Option<&'static str> {
         let Some(document) = session.document() else {
-            let needs_none =
-                matches!(self, Action::Open | Action::Quit | Action::Tool(_) | Action::ToggleTheme | Action::Keys);
+            let needs_none = matches!(
+                self,
+                Action::Open
+                    | Action::OpenSample(_)
+                    | Action::Quit
+                    | Action::Tool(_)
+                    | Action::ToggleTheme
+                    | Action::Keys
+            );
             return (!needs_none).then_some("Open a mesh first");
         };
         let scene = document.scene();
@@ -247,6 +260,14 @@ impl Action {
             {
                 Some("Select some vertices first (S, then drag a box)")
             }
+            Action::DeleteHandle
+                if scene.active.is_none() && !matches!(session.tool_kind(), ToolKind::Handle | ToolKind::Anchor) =>
+            {
+                Some("Choose a handle in the list first")
+            }
+            Action::Eyedropper if !matches!(session.tool_kind(), ToolKind::Brush | ToolKind::Fill) => {
+                Some("Take the brush or the fill tool first")
+            }
             _ => None,
         }
     }
@@ -258,6 +279,7 @@ impl Action {
         }
         match self {
             Action::Open => return Some(WindowAction::Open),
+            Action::OpenSample(sample) => return Some(WindowAction::OpenSample(sample)),
             Action::Save => return Some(WindowAction::Save),
             Action::SaveAs => return Some(WindowAction::SaveAs),
             Action::Quit => return Some(WindowAction::Quit),

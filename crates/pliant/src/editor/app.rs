@@ -9,7 +9,7 @@ use super::actions::WindowAction;
 use super::keyboard::Keyboard;
 use super::panels::{self, Dialog, DialogOutcome, Loss};
 use super::viewport_panel::ViewportPanel;
-use super::{Action, Job, JobEvent, NoticeKind, Sample, Session, theme};
+use super::{Action, Job, JobEvent, NoticeKind, Opened, Sample, Session, theme};
 
 /// Why the window could not be shown.
 #[derive(Debug, thiserror::Error)]
@@ -34,6 +34,10 @@ pub struct EditorApp {
     title: String,
     /// The user has agreed to lose changes by closing.
     may_close: bool,
+    /// What to go on with once the mesh is written.
+    after_save: Option<Loss>,
+    /// A mesh that was opened while the document was changed further: shown when the user agrees.
+    opened_meanwhile: Option<(Box<Opened>, Option<Sample>)>,
     last_frame: FrameWork,
 }
 
@@ -68,6 +72,8 @@ impl EditorApp {
             keyboard: Keyboard::default(),
             title: String::new(),
             may_close: false,
+            after_save: None,
+            opened_meanwhile: None,
             last_frame: FrameWork::default(),
         })
     }
@@ -87,6 +93,7 @@ impl EditorApp {
         match action.perform(&mut self.session) {
             None => {}
             Some(WindowAction::Open) => self.dialog = Dialog::Open { path: String::new() },
+            Some(WindowAction::OpenSample(sample)) => self.lose(Loss::OpenSample(sample), ctx),
             Some(WindowAction::SaveAs) => self.ask_where_to_save(),
             Some(WindowAction::Save) => self.save(),
             Some(WindowAction::Quit) => ctx.send_viewport_cmd(egui::ViewportCommand::Close),
@@ -145,6 +152,12 @@ impl EditorApp {
         match loss {
             Loss::Open(path) => self.session.start(Job::Open(path)),
             Loss::OpenSample(sample) => self.session.start(Job::OpenSample(sample)),
+            Loss::Show => {
+                if let Some((opened, sample)) = self.opened_meanwhile.take() {
+                    self.session.notices.clear();
+                    self.session.show(*opened, sample);
+                }
+            }
             Loss::Close => {
                 self.may_close = true;
                 ctx.send_viewport_cmd(egui::ViewportCommand::Close);
@@ -158,7 +171,14 @@ impl EditorApp {
             DialogOutcome::OpenSample(sample) => self.lose(Loss::OpenSample(sample), ctx),
             DialogOutcome::Save(path) => self.save_to(path),
             DialogOutcome::Lose(loss) => self.proceed(loss, ctx),
-            DialogOutcome::SaveFirst => self.save(),
+            DialogOutcome::SaveFirst(loss) => {
+                self.after_save = Some(loss);
+                self.save();
+            }
+            DialogOutcome::Canceled => {
+                self.after_save = None;
+                self.opened_meanwhile = None;
+            }
         }
     }
 
@@ -187,6 +207,16 @@ impl eframe::App for EditorApp {
                 }
                 (JobEvent::ChosenToSave(chosen), Dialog::Save { path }) => *path = chosen.display().to_string(),
                 (JobEvent::ChosenToSave(path), _) => self.save_to(path),
+                (JobEvent::Opened { opened, sample }, dialog) => {
+                    self.opened_meanwhile = Some((opened, sample));
+                    *dialog = Dialog::Unsaved(Loss::Show);
+                }
+                (JobEvent::Saved { .. }, _) => {
+                    if let Some(loss) = self.after_save.take() {
+                        self.proceed(loss, ctx);
+                    }
+                }
+                (JobEvent::Failed { .. }, _) => self.after_save = None,
                 _ => {}
             }
         }
@@ -195,12 +225,14 @@ impl eframe::App for EditorApp {
         if let Some(path) = dropped.into_iter().next() {
             self.lose(Loss::Open(path), ctx);
         }
-        if ctx.input(|input| input.viewport().close_requested())
-            && !self.may_close
-            && self.session.document().is_some_and(|document| document.is_modified())
-        {
-            ctx.send_viewport_cmd(egui::ViewportCommand::CancelClose);
-            self.dialog = Dialog::Unsaved(Loss::Close);
+        if ctx.input(|input| input.viewport().close_requested()) && !self.may_close {
+            if self.session.is_saving() {
+                ctx.send_viewport_cmd(egui::ViewportCommand::CancelClose);
+                self.after_save = Some(Loss::Close);
+            } else if self.session.document().is_some_and(|document| document.is_modified()) {
+                ctx.send_viewport_cmd(egui::ViewportCommand::CancelClose);
+                self.dialog = Dialog::Unsaved(Loss::Close);
+            }
         }
         self.name_window(ctx);
     }

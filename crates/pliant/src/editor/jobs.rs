@@ -56,6 +56,8 @@ pub enum JobEvent {
     },
     /// The mesh was written.
     Saved {
+        /// What was opened.
+        model: Arc<Model>,
         /// Where.
         to: PathBuf,
         /// The state that is on disk now.
@@ -72,7 +74,12 @@ pub enum JobEvent {
     /// The dialog was closed without a choice.
     Dismissed,
     /// It failed: why.
-    Failed(String),
+    Failed {
+        /// What was tried, as the status line says it.
+        what: &'static str,
+        /// Why not, and what to do.
+        why: String,
+    },
 }
 
 /// A dialog that answers this fast was never shown.
@@ -86,12 +93,14 @@ pub(super) struct Jobs {
     /// Number and label of each unfinished job, oldest first.
     running: Vec<(u64, &'static str)>,
     next: u64,
+    /// The newest job that opens a mesh: what older ones bring is no longer wanted.
+    newest_open: u64,
 }
 
 impl Jobs {
     pub(super) fn new(wake: Arc<dyn Fn() + Send + Sync>) -> Jobs {
         let (sender, receiver) = channel();
-        Jobs { sender, receiver, wake, running: Vec::new(), next: 0 }
+        Jobs { sender, receiver, wake, running: Vec::new(), next: 0, newest_open: 0 }
     }
 
     /// Starts a job. A thread that cannot be started is a failure like any other.
@@ -99,25 +108,41 @@ impl Jobs {
         let (sender, wake) = (self.sender.clone(), self.wake.clone());
         let number = self.next;
         self.next += 1;
-        self.running.push((number, label(&job)));
+        let what = label(&job);
+        self.running.push((number, what));
+        if matches!(job, Job::Open(_) | Job::OpenSample(_)) {
+            self.newest_open = number;
+        }
         let work = move || {
             let outcome = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| run(job)));
-            let event =
-                outcome.unwrap_or_else(|_| JobEvent::Failed("it stopped unexpectedly; please report it".into()));
+            let event = outcome
+                .unwrap_or_else(|_| JobEvent::Failed { what, why: "it stopped unexpectedly; please report it".into() });
             // Nobody listens any more once the window is closed.
             let _ = sender.send((number, event));
             wake();
         };
         if let Err(error) = std::thread::Builder::new().name("job".into()).spawn(work) {
-            let _ = self.sender.send((number, JobEvent::Failed(format!("no thread could be started: {error}"))));
+            let _ = self
+                .sender
+                .send((number, JobEvent::Failed { what, why: format!("no thread could be started: {error}") }));
         }
     }
 
     /// The next finished job.
     pub(super) fn poll(&mut self) -> Option<JobEvent> {
-        let (number, event) = self.receiver.try_recv().ok()?;
-        self.running.retain(|&(running, _)| running != number);
-        Some(event)
+        loop {
+            let (number, event) = self.receiver.try_recv().ok()?;
+            self.running.retain(|&(running, _)| running != number);
+            let is_outdated = matches!(event, JobEvent::Opened { .. }) && number != self.newest_open;
+            if !is_outdated {
+                return Some(event);
+            }
+        }
+    }
+
+    /// Whether a mesh is being written.
+    pub(super) fn is_saving(&self) -> bool {
+        self.running.iter().any(|&(_, what)| what == SAVING)
     }
 
     /// What is being done, for the status line.
@@ -126,10 +151,13 @@ impl Jobs {
     }
 }
 
+const OPENING: &str = "Opening…";
+const SAVING: &str = "Saving…";
+
 fn label(job: &Job) -> &'static str {
     match job {
-        Job::Open(_) | Job::OpenSample(_) => "Opening…",
-        Job::Save { .. } => "Saving…",
+        Job::Open(_) | Job::OpenSample(_) => OPENING,
+        Job::Save { .. } => SAVING,
         Job::BrowseOpen | Job::BrowseSave { .. } => "Waiting for the file dialog…",
     }
 }
@@ -138,7 +166,7 @@ fn run(job: Job) -> JobEvent {
     match job {
         Job::Open(path) => opened(Model::open(&path), None),
         Job::OpenSample(sample) => opened(sample.model(), Some(sample)),
-        Job::Save { model, snapshot, to } => save(&model, snapshot, to),
+        Job::Save { model, snapshot, to } => save(model, snapshot, to),
         Job::BrowseOpen => {
             let dialog = rfd::FileDialog::new().add_filter("Meshes", pliant_meshfile::Format::EXTENSIONS);
             ask(|| dialog.pick_file(), JobEvent::ChosenToOpen)
@@ -163,7 +191,7 @@ fn ask(dialog: impl FnOnce() -> Option<PathBuf>, chosen: impl FnOnce(PathBuf) ->
 fn opened(model: Result<Model, crate::document::ModelError>, sample: Option<Sample>) -> JobEvent {
     match model {
         Ok(model) => JobEvent::Opened { opened: Box::new(Opened::new(Arc::new(model))), sample },
-        Err(error) => JobEvent::Failed(error.to_string()),
+        Err(error) => JobEvent::Failed { what: OPENING, why: error.to_string() },
     }
 }
 
@@ -179,7 +207,7 @@ impl Opened {
     }
 }
 
-fn save(model: &Model, snapshot: Snapshot, to: PathBuf) -> JobEvent {
+fn save(model: Arc<Model>, snapshot: Snapshot, to: PathBuf) -> JobEvent {
     let rigidity = &snapshot.scene.rigidity;
     // A file that never had r gets none as long as r is what it would be anyway.
     let matters = rigidity.max() > 1 || model.file.rigidity.is_some();
@@ -187,8 +215,8 @@ fn save(model: &Model, snapshot: Snapshot, to: PathBuf) -> JobEvent {
     match model.file.save(&to, &snapshot.pose.positions, rigidity) {
         Ok(warnings) => {
             let warnings = warnings.iter().map(ToString::to_string).collect();
-            JobEvent::Saved { to, snapshot, warnings }
+            JobEvent::Saved { model, to, snapshot, warnings }
         }
-        Err(error) => JobEvent::Failed(error.to_string()),
+        Err(error) => JobEvent::Failed { what: SAVING, why: error.to_string() },
     }
 }

@@ -2,12 +2,12 @@
 
 use std::time::{Duration, Instant};
 
-use egui::{Key, Modifiers};
+use egui::{Event, Key, Modifiers};
 
 use super::{Action, Session};
 use crate::tools::{Input, Options, ToolKey};
 
-/// Two digits typed within this time are one number.
+/// Two digits typed within this time, with nothing else between, are one number.
 const TYPED_TOGETHER: Duration = Duration::from_millis(600);
 
 const DIGITS: [Key; 10] =
@@ -25,7 +25,8 @@ impl Keyboard {
         if ctx.text_edit_focused() {
             return Vec::new();
         }
-        if ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {
+        // An open menu closes by Esc itself.
+        if !egui::Popup::is_any_open(ctx) && ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {
             session.input(Input::Key(ToolKey::Escape));
         }
         self.digits(ctx, session);
@@ -52,6 +53,14 @@ impl Keyboard {
     }
 
     fn digits(&mut self, ctx: &egui::Context, session: &mut Session) {
+        let is_interrupted = |event: &Event| match event {
+            Event::PointerButton { .. } => true,
+            Event::Key { key, pressed: true, .. } => !DIGITS.contains(key),
+            _ => false,
+        };
+        if ctx.input(|input| input.events.iter().any(is_interrupted)) {
+            self.last_digit = None;
+        }
         for (digit, key) in (0_u16..).zip(DIGITS) {
             if !ctx.input_mut(|input| input.consume_key(Modifiers::NONE, key)) {
                 continue;

@@ -1,6 +1,13 @@
 //! How the surface is shown: not part of the document, not undone.
 
+use pliant_solver::Rigidity;
+
 use crate::viewport::{Shading, Theme};
+
+/// r at the stiff end of the color ramp: the paper's 6, or more if the surface has more.
+pub(super) fn ramp_max(rigidity: &Rigidity) -> u16 {
+    rigidity.max().max(6)
+}
 
 /// What colors the surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

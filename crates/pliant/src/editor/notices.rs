@@ -46,9 +46,9 @@ impl Notices {
         }
     }
 
-    /// Takes off the good news, which need no answer.
-    pub fn dismiss_done(&mut self) {
-        self.list.retain(|notice| notice.kind != NoticeKind::Done);
+    /// Takes off all: they spoke of something that is over.
+    pub fn clear(&mut self) {
+        self.list.clear();
     }
 
     /// What is on screen.

@@ -1,7 +1,7 @@
 //! Meshes that come with the program.
 
 use pliant_meshfile::Format;
-use pliant_solver::{Rigidity, VertexId};
+use pliant_solver::VertexId;
 
 use crate::document::{Command, Document, GroupKind, Model, ModelError};
 
@@ -103,10 +103,5 @@ impl Sample {
         if document.apply(Command::Hold { kind: GroupKind::Anchor, vertices }).is_ok() {
             document.forget_history();
         }
-    }
-
-    /// A sensible largest r for the legend.
-    pub fn ramp_max(rigidity: &Rigidity) -> u16 {
-        rigidity.max().max(6)
     }
 }

@@ -1,7 +1,7 @@
 //! The editor without its window: what is open, which tool is in hand, what the solver said. Everything the window
 //! does goes through here, and so can a test.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use glam::{DAffine3, Vec2, Vec3};
@@ -10,7 +10,7 @@ use pliant_solver::{Rigidity, VertexId};
 
 use super::jobs::{Jobs, Opened};
 use super::{ColorBy, Job, JobEvent, Look, NoticeKind, Notices, Sample};
-use crate::document::{Command, Document, GroupKind, SelectMode};
+use crate::document::{Command, Document, GroupKind, Model, SelectMode, Snapshot};
 use crate::solving::{SolveReport, SolveState, Worker};
 use crate::tools::{Context, Input, Marks, Options, Surface, Tool, ToolKind, View};
 use crate::viewport::{Camera, SurfaceFrame};
@@ -75,6 +75,10 @@ pub struct Session {
     jobs: Jobs,
     sent: Option<(u64, bool)>,
     welcome: Option<Welcome>,
+    /// Revision of the document when a job was started that will replace it.
+    revision_at_open: u64,
+    /// Why the solver last gave up: said once, not with each new try.
+    last_failure: Option<String>,
 }
 
 impl Session {
@@ -95,6 +99,8 @@ impl Session {
             jobs: Jobs::new(wake),
             sent: None,
             welcome: None,
+            revision_at_open: 0,
+            last_failure: None,
         })
     }
 
@@ -115,7 +121,15 @@ impl Session {
 
     /// Starts work in the background; [`Session::poll`] takes what it came to.
     pub fn start(&mut self, job: Job) {
+        if matches!(job, Job::Open(_) | Job::OpenSample(_)) {
+            self.revision_at_open = self.document().map_or(0, Document::revision);
+        }
         self.jobs.start(job);
+    }
+
+    /// Whether a mesh is being written in the background.
+    pub fn is_saving(&self) -> bool {
+        self.jobs.is_saving()
     }
 
     /// What is being done in the background.
@@ -150,12 +164,21 @@ impl Session {
         let mut for_window = Vec::new();
         while let Some(event) = self.jobs.poll() {
             match event {
+                JobEvent::Opened { opened, sample } if self.has_new_changes() => {
+                    for_window.push(JobEvent::Opened { opened, sample });
+                }
                 JobEvent::Opened { opened, sample } => {
-                    self.notices.dismiss_done();
+                    self.notices.clear();
                     self.show(*opened, sample);
                 }
-                JobEvent::Saved { to, snapshot, warnings } => self.saved(to, snapshot, warnings),
-                JobEvent::Failed(why) => self.notices.push(NoticeKind::Error, why),
+                JobEvent::Saved { model, to, snapshot, warnings } => {
+                    self.saved(&model, &to, snapshot.clone(), warnings.clone());
+                    for_window.push(JobEvent::Saved { model, to, snapshot, warnings });
+                }
+                JobEvent::Failed { what, why } => {
+                    self.notices.push(NoticeKind::Error, why.clone());
+                    for_window.push(JobEvent::Failed { what, why });
+                }
                 JobEvent::Dismissed => {}
                 JobEvent::NoDialog => self.notices.push(
                     NoticeKind::Warning,
@@ -167,15 +190,21 @@ impl Session {
         for_window
     }
 
-    fn saved(&mut self, to: PathBuf, snapshot: crate::document::Snapshot, warnings: Vec<String>) {
-        self.notices.dismiss_done();
+    /// Whether the document was changed after the newest job that opens another was started.
+    fn has_new_changes(&self) -> bool {
+        self.document().is_some_and(|document| document.is_modified() && document.revision() != self.revision_at_open)
+    }
+
+    fn saved(&mut self, model: &Arc<Model>, to: &Path, snapshot: Snapshot, warnings: Vec<String>) {
+        self.notices.clear();
         self.notices.push(NoticeKind::Done, format!("Saved {}", to.display()));
         for warning in warnings {
             self.notices.push(NoticeKind::Warning, warning);
         }
-        if let Some(open) = &mut self.open {
+        // Another mesh may have been opened while this one was written.
+        if let Some(open) = self.open.as_mut().filter(|open| Arc::ptr_eq(open.document.model(), model)) {
             open.document.mark_saved(snapshot);
-            open.save_path = Some(to);
+            open.save_path = Some(to.to_owned());
         }
     }
 
@@ -188,13 +217,21 @@ impl Session {
             open.surface.set_frame(frame.clone());
             self.status.count_surface();
         }
-        let failed_before = matches!(self.status.report, Some(SolveReport { state: SolveState::Failed(_), .. }));
-        if let SolveState::Failed(why) = &report.state
-            && !failed_before
-        {
-            self.notices.push(NoticeKind::Error, format!("Cannot solve: {why}"));
+        match &report.state {
+            SolveState::Failed(why) if self.last_failure.as_ref() != Some(why) => {
+                self.notices.push(NoticeKind::Error, format!("Cannot solve: {why}"));
+                self.last_failure = Some(why.clone());
+            }
+            SolveState::Failed(_) | SolveState::Preparing => {}
+            SolveState::Resting | SolveState::Iterating | SolveState::Settled => self.last_failure = None,
         }
-        self.status.report = Some(report);
+        // Numbers and colors stay while the solver prepares.
+        self.status.report = Some(match self.status.report.take() {
+            Some(last) if report.state == SolveState::Preparing => {
+                SolveReport { state: report.state, revision: report.revision, epoch: report.epoch, ..last }
+            }
+            _ => report,
+        });
     }
 
     /// Hints for a newcomer, while they are wanted.
@@ -222,8 +259,10 @@ impl Session {
 
     /// Takes back the newest step.
     pub fn undo(&mut self) {
-        self.cancel_tool();
-        if let Some(open) = &mut self.open {
+        if self.tool.is_active() {
+            // What is under way is the newest step.
+            self.cancel_tool();
+        } else if let Some(open) = &mut self.open {
             let undone = open.document.undo().is_some();
             if let Some(welcome) = &mut self.welcome {
                 welcome.undone |= undone;
@@ -260,6 +299,7 @@ impl Session {
 
     /// Changes the picture's settings.
     pub fn set_look(&mut self, look: Look) {
+        self.options.show_gizmo = look.handles;
         self.look = look;
         self.synchronize();
     }

@@ -6,11 +6,13 @@ use egui::{Event, PointerButton, Pos2, Rect};
 use glam::{Vec2, Vec3};
 use pliant_solver::{Rigidity, VertexId};
 
-use super::{ColorBy, NoticeKind, Sample, Session, theme};
+use super::look::ramp_max;
+use super::{ColorBy, NoticeKind, Session, theme};
 use crate::document::{GroupKind, Selection};
-use crate::tools::{Cursor, Input, Modifiers, Pointer};
+use crate::solving::SolveState;
+use crate::tools::{Cursor, Input, Modifiers, Pointer, ToolKind};
 use crate::viewport::{
-    Coloring, DeviceWatch, Dot, Line, Renderer, SurfaceFrame, ViewScene, samples_for, watch_device,
+    Camera, Coloring, DeviceWatch, Dot, Line, Renderer, SurfaceFrame, ViewScene, samples_for, watch_device,
 };
 
 /// Larger groups show only some of their vertices: thousands of dots hide the surface (by eye).
@@ -48,6 +50,8 @@ pub(super) struct ViewportPanel {
     /// The button that began the gesture: only its release ends it.
     button: Option<PointerButton>,
     pointer: Option<Pos2>,
+    /// What lay under the pointer when the tool last heard of it: the tool, the surface and the camera.
+    hovered: Option<(ToolKind, *const SurfaceFrame, Camera)>,
     cache: Cache,
     /// Whether pictures are made by the processor.
     pub(super) is_software: bool,
@@ -69,6 +73,7 @@ impl ViewportPanel {
             gesture: None,
             button: None,
             pointer: None,
+            hovered: None,
             cache: Cache::default(),
         }
     }
@@ -142,12 +147,29 @@ impl ViewportPanel {
         if !is_over && self.gesture.is_none() {
             session.input(Input::Leave);
         }
+        if is_over {
+            self.hover_again(ui.input(|input| input.modifiers), rect, session);
+        }
         let factor = (scroll * ZOOM_PER_POINT).exp() * pinch;
+        // A drag of the tool measures from where it began, under the camera of that moment.
         if is_over
+            && self.gesture != Some(Gesture::Tool)
             && factor != 1.0
             && let (Some(pos), Some(open)) = (self.pointer, session.open_mut())
         {
             open.camera.zoom(factor, to_vec(pos - rect.min), to_vec(rect.size()));
+        }
+    }
+
+    /// The pointer rests, but what is under it changed: another tool, a turned camera, a surface that came to rest. (While
+    /// the surface still moves the hover may lag behind: looking for it costs a refit of the hierarchy.)
+    fn hover_again(&mut self, keys: egui::Modifiers, rect: Rect, session: &mut Session) {
+        let (None, Some(pos), Some(open)) = (self.gesture, self.pointer, session.open()) else { return };
+        let report = session.status.report.as_ref();
+        let now = (session.tool_kind(), Arc::as_ptr(open.surface.frame()), open.camera);
+        if self.hovered != Some(now) && report.is_none_or(|report| report.state != SolveState::Iterating) {
+            self.hovered = Some(now);
+            session.input(Input::Hover(pointer(pos, keys, rect)));
         }
     }
 
@@ -234,7 +256,7 @@ impl ViewportPanel {
         let mut dots = if look.handles { group_dots(session) } else { Vec::new() };
         dots.extend(marks.dots);
         keep(&mut self.cache.dots, dots);
-        keep(&mut self.cache.lines, if look.handles { marks.lines } else { Vec::new() });
+        keep(&mut self.cache.lines, marks.lines);
         let coloring = match look.color_by {
             ColorBy::Rigidity => Coloring::Rigidity,
             ColorBy::Energy if values.is_some() => Coloring::Energy,
@@ -249,7 +271,7 @@ impl ViewportPanel {
             dots: self.cache.dots.clone(),
             lines: self.cache.lines.clone(),
             coloring,
-            ramp_max: Sample::ramp_max(&scene.rigidity),
+            ramp_max: ramp_max(&scene.rigidity),
             color_opacity: look.opacity,
             shading: look.shading,
             wireframe: look.wireframe,

@@ -9,7 +9,7 @@ use pliant_geometry::VertexNormals;
 use pliant_solver::{Analysis, Neighborhoods, SolveError, Solver, Start, StepReport, VertexId};
 
 use super::{SolveReport, SolveRequest, SolveState};
-use crate::document::{Group, Pose};
+use crate::document::{Group, Pose, held_by};
 use crate::viewport::SurfaceFrame;
 
 /// Relative decrease of the energy below which the surface counts as at rest. The paper's γ is 1e-3 for a result; a
@@ -34,8 +34,10 @@ pub struct Engine {
     targets: Vec<DVec3>,
     normals: VertexNormals,
     state: SolveState,
-    /// Nothing is bent: the pose is the rest pose to the last bit, and iterating would only add rounding.
-    is_untouched: bool,
+    /// Whether the pose is anything but the rest pose to the last bit. Iterating at rest would only add rounding.
+    is_bent: bool,
+    /// Whether the pose has changed since it was last reported.
+    is_pose_new: bool,
     quiet: u32,
     last: StepReport,
     energies: VecDeque<f64>,
@@ -53,7 +55,8 @@ impl Engine {
             held: Vec::new(),
             targets: Vec::new(),
             state: SolveState::Resting,
-            is_untouched: true,
+            is_bent: false,
+            is_pose_new: false,
             quiet: 0,
             last: StepReport { energy: 0.0, iteration: 0, relative_decrease: 0.0 },
             energies: VecDeque::new(),
@@ -82,11 +85,13 @@ impl Engine {
         let Some(solver) = self.solver.as_mut().filter(|_| !relaxed && !wish.groups.is_empty()) else {
             return self.rebuild(wish);
         };
-        let (held, targets) = held_and_targets(&wish.groups);
+        let (held, targets) = held_by(&wish.groups);
         let outcome = (|| -> Result<bool, SolveError> {
             let mut changed = jumped;
             if jumped {
                 solver.set_pose(&wish.pose.positions)?;
+                self.is_bent = !is_rest(&wish);
+                self.is_pose_new = true;
             }
             if wish.rigidity != self.wish.rigidity {
                 solver.set_rigidity(&wish.rigidity)?;
@@ -103,6 +108,7 @@ impl Engine {
                 solver.set_targets(&targets)?;
                 if leap && !jumped {
                     solver.start(Start::Auto);
+                    self.is_bent = true;
                 }
                 changed = true;
             }
@@ -124,11 +130,12 @@ impl Engine {
         self.solver = None;
         self.energies.clear();
         self.state = SolveState::Resting;
-        let (held, targets) = held_and_targets(&wish.groups);
+        let (held, targets) = held_by(&wish.groups);
         if !held.is_empty() {
             match self.build(&wish, &held, &targets) {
                 Ok(solver) => {
                     self.solver = Some(solver);
+                    self.is_bent = !is_rest(&wish);
                     self.go_on(&wish);
                 }
                 Err(error) => self.fail(&error),
@@ -147,9 +154,12 @@ impl Engine {
 
     /// After a change: iterates again, unless nothing is bent.
     fn go_on(&mut self, wish: &SolveRequest) {
-        self.is_untouched = is_untouched(wish);
-        self.state = if self.is_untouched { SolveState::Settled } else { SolveState::Iterating };
         self.quiet = 0;
+        self.state = SolveState::Iterating;
+        if !self.is_bent && holds_at_rest(wish) {
+            self.state = SolveState::Settled;
+            self.energies.clear();
+        }
     }
 
     fn fail(&mut self, error: &SolveError) {
@@ -169,6 +179,7 @@ impl Engine {
         };
         let start = Instant::now();
         self.last = solver.step();
+        (self.is_bent, self.is_pose_new) = (true, true);
         remember(&mut self.times_ms, TIMED_ITERATIONS, start.elapsed().as_secs_f64() * 1e3);
         remember(&mut self.energies, PLOTTED_ENERGIES, self.last.energy);
         let is_quiet = self.last.energy == 0.0 || self.last.relative_decrease < SETTLED_BELOW;
@@ -178,9 +189,10 @@ impl Engine {
         }
     }
 
-    /// Where things stand, with the surface ready for the picture.
-    pub fn report(&self) -> SolveReport {
-        let solver = self.solver.as_ref().filter(|_| !self.is_untouched);
+    /// Where things stand, with the surface ready for the picture unless it is as last reported.
+    pub fn report(&mut self) -> SolveReport {
+        let is_new = std::mem::take(&mut self.is_pose_new);
+        let solver = self.solver.as_ref().filter(|_| is_new);
         let pose = solver.map(|solver| Pose { positions: solver.positions().into() });
         let frame = pose.as_ref().map(|pose| Arc::new(self.frame(pose)));
         let wants = self.wish.wants_vertex_energies;
@@ -225,16 +237,14 @@ impl Engine {
     }
 }
 
-fn held_and_targets(groups: &[Group]) -> (Vec<VertexId>, Vec<DVec3>) {
-    let held = groups.iter().flat_map(|group| group.vertices.iter().copied()).collect();
-    (held, groups.iter().flat_map(Group::targets).collect())
+fn is_rest(wish: &SolveRequest) -> bool {
+    *wish.pose.positions == *wish.model.mesh.positions()
 }
 
-/// Whether every held vertex is held at rest and the surface is at rest. The first target that moved ends the search.
-fn is_untouched(wish: &SolveRequest) -> bool {
+/// Whether every held vertex is held at rest. The first target that moved ends the search.
+fn holds_at_rest(wish: &SolveRequest) -> bool {
     let rest = wish.model.mesh.positions();
-    let is_held_at_rest = |group: &Group| group.vertices.iter().zip(group.targets()).all(|(v, p)| p == rest[v.index()]);
-    wish.groups.iter().all(is_held_at_rest) && *wish.pose.positions == *rest
+    wish.groups.iter().all(|group| group.vertices.iter().zip(group.targets()).all(|(v, p)| p == rest[v.index()]))
 }
 
 fn same_held(a: &[Group], b: &[Group]) -> bool {

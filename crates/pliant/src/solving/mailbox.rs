@@ -26,7 +26,17 @@ impl<T> Mailbox<T> {
 
     /// Replaces what has not been taken yet.
     pub(super) fn put(&self, letter: T) {
-        self.lock().letter = Some(letter);
+        self.put_over(letter, |_, new| new);
+    }
+
+    /// Replaces what has not been taken yet by what `merge` makes of it and the new letter.
+    pub(super) fn put_over(&self, letter: T, merge: impl FnOnce(T, T) -> T) {
+        let mut inner = self.lock();
+        inner.letter = Some(match inner.letter.take() {
+            Some(old) => merge(old, letter),
+            None => letter,
+        });
+        drop(inner);
         self.arrived.notify_one();
     }
 

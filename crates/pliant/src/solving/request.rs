@@ -10,7 +10,7 @@ use crate::viewport::SurfaceFrame;
 /// The whole wish: not what changed, but what should hold.
 #[derive(Clone)]
 pub struct SolveRequest {
-    /// Goes up with every wish.
+    /// Goes up with everything that changes the surface.
     pub revision: u64,
     /// Goes up when the pose jumps; the worker then takes over `pose`.
     pub epoch: u64,
@@ -56,13 +56,13 @@ pub struct SolveReport {
     pub epoch: u64,
     /// How it is doing.
     pub state: SolveState,
-    /// New positions, unless there are none.
+    /// New positions, unless they are as last reported.
     pub pose: Option<Pose>,
     /// The same in view space with normals, ready for the picture.
     pub frame: Option<Arc<SurfaceFrame>>,
     /// Energy (paper eq. 1), in the file's units.
     pub energy: f64,
-    /// Iterations since the solver was built.
+    /// Iterations since the solver was built or last started anew after a leap of the handles.
     pub iteration: u64,
     /// (E before − E after) / E before of the last iteration.
     pub relative_decrease: f64,
@@ -70,7 +70,7 @@ pub struct SolveReport {
     pub iteration_ms: f64,
     /// Energies of the last iterations, oldest first.
     pub energies: Arc<[f64]>,
-    /// Energy of every vertex scaled so that 1 is the largest, when asked for.
+    /// Energy of every vertex relative to its 99th percentile, at most 1, when asked for.
     pub vertex_energies: Option<Arc<[f32]>>,
     /// What the user should know: parts without a handle, for instance.
     pub remarks: Vec<String>,

@@ -2,7 +2,6 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
-use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 use super::mailbox::{Closed, Mailbox};
@@ -11,11 +10,10 @@ use super::{Engine, SolveReport, SolveRequest, SolveState};
 /// How long the worker iterates before it shows the surface: half a frame at 60 Hz leaves the rest to the picture.
 const REPORT_EVERY: Duration = Duration::from_millis(8);
 
-/// A solver thread. Dropping it stops the thread after the iteration under way.
+/// A solver thread. Dropping this tells it to end; it does so after the iteration or factorization under way.
 pub struct Worker {
     requests: Arc<Mailbox<SolveRequest>>,
     reports: Arc<Mailbox<SolveReport>>,
-    thread: Option<JoinHandle<()>>,
 }
 
 impl Worker {
@@ -24,15 +22,15 @@ impl Worker {
         let requests = Arc::new(Mailbox::new());
         let reports = Arc::new(Mailbox::new());
         let (inbox, outbox) = (requests.clone(), reports.clone());
-        let thread = std::thread::Builder::new().name("solver".into()).spawn(move || {
+        std::thread::Builder::new().name("solver".into()).spawn(move || {
             let send = |report| {
-                outbox.put(report);
+                outbox.put_over(report, keep_pose);
                 wake();
             };
             // The only way out is the closed mailbox.
             let Err(Closed) = run(&inbox, send);
         })?;
-        Ok(Worker { requests, reports, thread: Some(thread) })
+        Ok(Worker { requests, reports })
     }
 
     /// States a new wish; an older one that has not been read yet is forgotten.
@@ -49,11 +47,6 @@ impl Worker {
 impl Drop for Worker {
     fn drop(&mut self) {
         self.requests.close();
-        if let Some(thread) = self.thread.take()
-            && thread.join().is_err()
-        {
-            log::error!("the solver thread ended by a panic");
-        }
     }
 }
 
@@ -61,11 +54,11 @@ enum Never {}
 
 fn run(inbox: &Mailbox<SolveRequest>, send: impl Fn(SolveReport)) -> Result<Never, Closed> {
     let mut engine: Option<Engine> = None;
+    let mut newest: Option<SolveRequest> = None;
     loop {
         let is_busy = engine.as_ref().is_some_and(Engine::is_busy);
         let wish = if is_busy { inbox.take()? } else { Some(inbox.wait()?) };
-        // A failed wish keeps its epoch and revision, so that the window can say what it belongs to.
-        let about = wish.clone();
+        newest = wish.clone().or(newest);
         let round = catch_unwind(AssertUnwindSafe(|| {
             if let Some(wish) = wish {
                 turn_to(&mut engine, wish, &send);
@@ -81,12 +74,21 @@ fn run(inbox: &Mailbox<SolveRequest>, send: impl Fn(SolveReport)) -> Result<Neve
             send(engine.report());
         }));
         if let Err(panic) = round {
-            let last = engine.take().map(|engine| engine.report());
-            if let Some(report) = about.map(|wish| bare_report(&wish, failure(&*panic))).or(last) {
-                send(SolveReport { state: failure(&*panic), pose: None, frame: None, ..report });
+            // Nothing can be said of an engine that was left halfway.
+            engine = None;
+            if let Some(wish) = &newest {
+                send(bare_report(wish, failure(&*panic)));
             }
         }
     }
+}
+
+/// A pose that has not been looked at yet goes on with a later report that brings none.
+fn keep_pose(old: SolveReport, new: SolveReport) -> SolveReport {
+    if new.pose.is_none() && new.epoch == old.epoch && Arc::ptr_eq(&new.model, &old.model) {
+        return SolveReport { pose: old.pose, frame: old.frame, ..new };
+    }
+    new
 }
 
 fn turn_to(engine: &mut Option<Engine>, wish: SolveRequest, send: impl Fn(SolveReport)) {

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use glam::{Vec2, Vec3};
-use pliant_solver::{Rigidity, VertexId};
+use pliant_solver::{Mesh, Rigidity, VertexId};
 
 use super::{BrushMode, Context, Cursor, Input, Marks, Pick, Pointer, Reaction, Tool, ToolKey};
 use crate::document::Command;
@@ -65,20 +65,25 @@ fn dab(px: Vec2, mode: BrushMode, touched: &mut HashSet<VertexId>, context: &mut
     }
     let old = context.document.scene().rigidity.as_slice();
     let mesh = &context.document.model().mesh;
-    let mut once = |v: VertexId| touched.insert(v);
-    let new = |v: VertexId| match mode {
-        BrushMode::Set => context.options.rigidity,
-        BrushMode::Stiffer if once(v) => old[v.index()].saturating_add(1).min(Rigidity::MAX),
-        BrushMode::Softer if once(v) => old[v.index()].saturating_sub(1).max(1),
-        BrushMode::Stiffer | BrushMode::Softer => old[v.index()],
-        BrushMode::Smooth => {
-            let ring = mesh.neighbors(v);
-            let sum: u32 = ring.iter().map(|&w| u32::from(old[w as usize])).sum::<u32>() + u32::from(old[v.index()]);
-            let n = ring.len() as u32 + 1;
-            ((sum + n / 2) / n) as u16
-        }
+    let mut new = |v: VertexId| {
+        let value = match mode {
+            BrushMode::Set => context.options.rigidity,
+            BrushMode::Stiffer | BrushMode::Softer if !touched.insert(v) => return None,
+            BrushMode::Stiffer => old[v.index()].saturating_add(1).min(Rigidity::MAX),
+            BrushMode::Softer => old[v.index()].saturating_sub(1).max(1),
+            BrushMode::Smooth => mean_around(mesh, old, v),
+        };
+        Some((v, value))
     };
-    covered.iter().copied().zip(covered.iter().copied().map(new).collect::<Vec<_>>()).collect()
+    covered.into_iter().filter_map(&mut new).collect()
+}
+
+/// Mean r of a vertex and its neighbors, rounded.
+fn mean_around(mesh: &Mesh, r: &[u16], v: VertexId) -> u16 {
+    let ring = mesh.neighbors(v);
+    let sum: u32 = ring.iter().map(|&w| u32::from(r[w as usize])).sum::<u32>() + u32::from(r[v.index()]);
+    let n = ring.len() as u32 + 1;
+    ((sum + n / 2) / n) as u16
 }
 
 fn radius_at(pick: &Pick, context: &Context<'_>) -> f32 {

@@ -16,6 +16,8 @@ const BOX_AT: f32 = 1.22;
 const REACH_PX: f32 = 7.0;
 /// Segments of a ring.
 const RING_SEGMENTS: usize = 64;
+/// A ring's plane seen at a smaller slope than this says too little about the angle (by eye).
+const EDGE_ON: f32 = 0.15;
 /// Rotation step while Ctrl is held.
 const SNAP_RADIANS: f64 = 15.0 * std::f64::consts::PI / 180.0;
 
@@ -153,25 +155,27 @@ impl Gizmo {
         (p - self.center).dot(view.camera.forward()) <= 0.05 * self.length
     }
 
-    /// Angle about an axis between two pixels: in the ring's plane, or across the screen when that is seen edge-on.
+    /// Angle about an axis between two pixels: in the ring's plane, or along the near half of the ring where that is seen
+    /// edge-on.
     fn turn(&self, axis: usize, from: Vec2, to: Vec2, view: &View) -> Option<f32> {
         let unit = Vec3::AXES[axis];
-        let on_plane = |px: Vec2| {
-            let ray = view.camera.ray(px, view.size);
-            let slope = ray.direction.normalize().dot(unit);
-            (slope.abs() > 0.15).then(|| {
+        let toward = view.camera.project(self.center, view.size)?.0;
+        let slope = view.camera.ray(toward, view.size).direction.normalize().dot(unit);
+        if slope.abs() > EDGE_ON {
+            let on_plane = |px: Vec2| {
+                let ray = view.camera.ray(px, view.size);
                 let t = (self.center - ray.origin).dot(unit) / ray.direction.dot(unit);
-                ray.origin + ray.direction * t - self.center
-            })
-        };
-        if let (Some(a), Some(b)) = (on_plane(from), on_plane(to)) {
+                (t.is_finite() && t > 0.0).then(|| ray.origin + ray.direction * t - self.center)
+            };
+            let (a, b) = (on_plane(from)?, on_plane(to)?);
             return Some(a.cross(b).dot(unit).atan2(a.dot(b)));
         }
-        let (center, _) = view.camera.project(self.center, view.size)?;
-        let across = view.camera.project(self.at(unit), view.size)?.0 - center;
-        let side = across.normalize_or(Vec2::X).perp();
-        let facing = -unit.dot(view.camera.forward()).signum();
-        Some(facing * (to - from).dot(side) / (ARROW_PX * RING))
+        // Toward the eye lies the middle of the near half; turning moves it along unit × toward the eye.
+        let near = -view.camera.forward();
+        let middle = self.at((near - unit * near.dot(unit)).normalize_or(near) * RING);
+        let ahead = middle + unit.cross(middle - self.center) * 0.1;
+        let along = view.camera.project(ahead, view.size)?.0 - view.camera.project(middle, view.size)?.0;
+        Some((to - from).dot(along.normalize_or(Vec2::X)) / (ARROW_PX * RING))
     }
 }
 
@@ -231,6 +235,32 @@ mod tests {
                 gizmo.drag(GizmoPart::Rotate(axis), from, to, Modifiers::default(), &view()).expect("a motion");
             let got = motion.transform_vector3(u.as_dvec3());
             assert!(got.distance(v.as_dvec3()) < 1e-3, "axis {axis}: {u} went to {got}, expected {v}");
+        }
+    }
+
+    #[test]
+    fn a_ring_seen_edge_on_follows_the_pointer_from_every_side() {
+        use crate::viewport::Axis;
+        for look in [Axis::Front, Axis::Back, Axis::Right, Axis::Left, Axis::Top, Axis::Bottom] {
+            for pitch_px in [-6.0, 0.0, 6.0] {
+                let mut view = view();
+                view.camera.look_along(look);
+                view.camera.orbit(Vec2::new(0.0, pitch_px));
+                let gizmo = Gizmo::new(Vec3::ZERO, &view);
+                for axis in 0..3 {
+                    let unit = Vec3::AXES[axis];
+                    let near = -view.camera.forward();
+                    if near.dot(unit).abs() > EDGE_ON {
+                        continue;
+                    }
+                    let start = (near - unit * near.dot(unit)).normalize() * RING * gizmo.length;
+                    let end = glam::Quat::from_axis_angle(unit, 0.2) * start;
+                    let screen = |p: Vec3| view.camera.project(p, view.size).expect("in front").0;
+                    let angle = gizmo.turn(axis, screen(start), screen(end), &view).expect("an angle");
+                    // The arc of 0.2 radians and its sine, and perspective over a ring that is small on screen.
+                    assert!((angle - 0.2).abs() < 0.04, "{look:?}, pitch {pitch_px}, axis {axis}: {angle}");
+                }
+            }
         }
     }
 

@@ -35,6 +35,8 @@ pub struct Options {
     pub patch_rings: u16,
     /// Box or lasso.
     pub select_shape: SelectShape,
+    /// Whether the active handle has a gizmo.
+    pub show_gizmo: bool,
     /// Whether box and lasso take hidden vertices too.
     pub select_through: bool,
 }
@@ -53,6 +55,7 @@ impl Default for Options {
             brush_radius_px: 36.0,
             patch_rings: 2,
             select_shape: SelectShape::Box,
+            show_gizmo: true,
             select_through: true,
         }
     }

@@ -1,6 +1,7 @@
 //! The handle and anchor tools: click to hold a patch, drag to bend, gizmo for the active group.
 
 use glam::{DAffine3, Vec2, Vec3};
+use pliant_solver::VertexId;
 
 use super::region::patch;
 use super::{Context, Cursor, Gizmo, GizmoPart, Input, Marks, Pick, Pointer, Reaction, Tool, ToolKey, View};
@@ -11,6 +12,8 @@ use crate::viewport::Dot;
 const CLICK_PX: f32 = 3.0;
 /// How near, in points, the pointer must be to the middle of a group to take it.
 const REACH_PX: f32 = 11.0;
+/// Of larger groups only so many vertices are marked under the pointer.
+const MARKED_VERTICES: usize = 200;
 /// Preview of what a click would hold.
 const PREVIEW_COLOR: [u8; 4] = [255, 255, 255, 150];
 
@@ -129,7 +132,9 @@ impl PlaceTool {
         if let Some(group) = pick.and_then(|pick| scene.group_holding(pick.vertex)) {
             return Some(Target::Group(group.id));
         }
-        let reachable = scene.groups.iter().filter_map(|group| {
+        // Anchors are taken by their vertices: their middle may lie in the open.
+        let handles = scene.groups.iter().filter(|group| group.kind == GroupKind::Handle);
+        let reachable = handles.filter_map(|group| {
             let (at, _) = view.camera.project(model.to_view(group.center()), view.size)?;
             let distance = at.distance(px);
             (distance < REACH_PX).then_some((distance, group.id))
@@ -142,7 +147,8 @@ impl PlaceTool {
 
     fn gizmo(&self, context: &Context<'_>) -> Option<Gizmo> {
         let group = context.document.scene().active_group()?;
-        let shown = self.kind == GroupKind::Handle && group.kind == GroupKind::Handle;
+        let is_handle = self.kind == GroupKind::Handle && group.kind == GroupKind::Handle;
+        let shown = is_handle && context.options.show_gizmo;
         shown.then(|| Gizmo::new(context.document.model().to_view(group.center()), &context.view))
     }
 
@@ -244,11 +250,18 @@ impl Tool for PlaceTool {
         if let Some(gizmo) = self.gizmo(context) {
             marks.lines = gizmo.lines(hot, &context.view);
         }
-        if let State::Idle { hover: Some(Target::Surface(pick)) } = self.state {
-            let positions = &context.surface.frame().positions;
-            let preview = patch(&context.document.model().mesh, pick.vertex, context.options.patch_rings);
-            let dot = |position| Dot { position, color: PREVIEW_COLOR, radius_px: 2.5 };
-            marks.dots = preview.iter().map(|v| dot(positions[v.index()])).collect();
+        let positions = &context.surface.frame().positions;
+        let dot = |v: &VertexId| Dot { position: positions[v.index()], color: PREVIEW_COLOR, radius_px: 2.5 };
+        match self.state {
+            State::Idle { hover: Some(Target::Surface(pick)) } => {
+                let preview = patch(&context.document.model().mesh, pick.vertex, context.options.patch_rings);
+                marks.dots = preview.iter().map(dot).collect();
+            }
+            State::Idle { hover: Some(Target::Group(id)) } => {
+                let held = context.document.scene().group(id).map_or(&[][..], |group| &group.vertices);
+                marks.dots = held.iter().step_by(held.len().div_ceil(MARKED_VERTICES).max(1)).map(dot).collect();
+            }
+            _ => {}
         }
         marks
     }

@@ -82,10 +82,12 @@ impl Surface {
         };
         let ray = view.camera.ray(px, view.size);
         let along = (position - ray.origin).dot(ray.direction) / ray.direction.length_squared();
-        // Its own faces are at exactly this distance; a thousandth of the way is nearer than any other sheet (by eye).
+        // Its own faces are at exactly this distance; a thousandth of the viewing distance is nearer than any other
+        // sheet (by eye). Orthographic rays begin far before the eye, so their own length says nothing.
+        let slack = 1e-3 * along.abs().min(view.camera.distance / ray.direction.length());
         !self.bvh.is_blocked(
             Ray { origin: ray.origin, direction: ray.direction },
-            along - 1e-3 * along.abs(),
+            along - slack,
             &self.frame.positions,
             &self.triangles,
         )

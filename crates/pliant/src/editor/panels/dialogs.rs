@@ -35,6 +35,8 @@ pub(in crate::editor) enum Loss {
     Open(PathBuf),
     /// Opening a sample.
     OpenSample(Sample),
+    /// Showing a mesh that has been read meanwhile.
+    Show,
     /// Closing the window.
     Close,
 }
@@ -50,8 +52,10 @@ pub(in crate::editor) enum DialogOutcome {
     Save(PathBuf),
     /// Lose the changes.
     Lose(Loss),
-    /// Save first.
-    SaveFirst,
+    /// Save first, then go on.
+    SaveFirst(Loss),
+    /// Nothing.
+    Canceled,
 }
 
 impl Dialog {
@@ -74,8 +78,9 @@ impl Dialog {
         });
         if outcome.is_some() || close || modal.should_close() {
             *self = Dialog::None;
+            return outcome.or(Some(DialogOutcome::Canceled));
         }
-        outcome
+        None
     }
 }
 
@@ -153,14 +158,14 @@ fn unsaved(ui: &mut Ui, loss: &Loss, close: &mut bool) -> Option<DialogOutcome> 
     ui.heading("Save your changes?");
     let what = match loss {
         Loss::Close => "Closing the window",
-        Loss::Open(_) | Loss::OpenSample(_) => "Opening another mesh",
+        Loss::Open(_) | Loss::OpenSample(_) | Loss::Show => "Opening another mesh",
     };
     ui.label(format!("{what} loses what was bent and painted since the last save."));
     ui.add_space(10.0);
     let mut outcome = None;
     ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
         if ui.button("Save…").clicked() {
-            outcome = Some(DialogOutcome::SaveFirst);
+            outcome = Some(DialogOutcome::SaveFirst(loss.clone()));
         }
         if ui.button("Discard").clicked() {
             outcome = Some(DialogOutcome::Lose(loss.clone()));

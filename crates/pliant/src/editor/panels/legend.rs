@@ -2,7 +2,8 @@
 
 use egui::{Align2, Color32, CornerRadius, FontId, Rect, Ui, Vec2, pos2, vec2};
 
-use crate::editor::{ColorBy, Sample, Session, theme};
+use crate::editor::look::ramp_max;
+use crate::editor::{ColorBy, Session, theme};
 use crate::viewport::{energy_color, rigidity_color};
 
 const SWATCH: Vec2 = Vec2::new(26.0, 14.0);
@@ -11,23 +12,29 @@ const NUMBERED: u16 = 12;
 
 /// Paints the legend into the lower left corner of `viewport`. With a click on a swatch its r becomes the current one.
 pub(in crate::editor) fn legend(ui: &mut Ui, viewport: Rect, session: &mut Session) {
-    let Some(document) = session.document() else {
-        return;
+    let Some(document) = session.document() else { return };
+    let max = ramp_max(&document.scene().rigidity);
+    let size = match session.look.color_by {
+        ColorBy::Plain => return,
+        ColorBy::Rigidity => vec2(f32::from(max.min(NUMBERED)) * SWATCH.x + 20.0, 52.0),
+        ColorBy::Energy => vec2(180.0, 48.0),
     };
-    match session.look.color_by {
-        ColorBy::Plain => {}
-        ColorBy::Rigidity => {
-            let max = Sample::ramp_max(&document.scene().rigidity);
-            rigidity(ui, viewport, max, session);
+    let corner = pos2(viewport.left() + 12.0, viewport.bottom() - size.y - 12.0);
+    // A layer of its own, so that a click on the legend does nothing to the surface behind it.
+    egui::Area::new(egui::Id::unique("legend")).fixed_pos(corner).show(ui.ctx(), |ui| {
+        let (card, _) = ui.allocate_exact_size(size, egui::Sense::click_and_drag());
+        let fill = theme::palette(session.look.theme).panel.gamma_multiply(0.86);
+        ui.painter().rect_filled(card, CornerRadius::same(6), fill);
+        match session.look.color_by {
+            ColorBy::Plain => {}
+            ColorBy::Rigidity => rigidity(ui, card, max, session),
+            ColorBy::Energy => energy(ui, card, session),
         }
-        ColorBy::Energy => energy(ui, viewport, session),
-    }
+    });
 }
 
-fn rigidity(ui: &mut Ui, viewport: Rect, max: u16, session: &mut Session) {
+fn rigidity(ui: &mut Ui, card: Rect, max: u16, session: &mut Session) {
     let n = max.min(NUMBERED);
-    let size = vec2(f32::from(n) * SWATCH.x + 20.0, 52.0);
-    let card = card(ui, viewport, size, session);
     title(ui, card, "Rigidity", "soft", "stiff", session);
     for k in 0..n {
         let r = if n < 2 { 1 } else { 1 + (u32::from(k) * u32::from(max - 1) / u32::from(n - 1)) as u16 };
@@ -50,8 +57,7 @@ fn rigidity(ui: &mut Ui, viewport: Rect, max: u16, session: &mut Session) {
     }
 }
 
-fn energy(ui: &mut Ui, viewport: Rect, session: &mut Session) {
-    let card = card(ui, viewport, vec2(180.0, 48.0), session);
+fn energy(ui: &mut Ui, card: Rect, session: &mut Session) {
     title(ui, card, "Energy", "low", "high", session);
     let steps = 40;
     for k in 0..steps {
@@ -60,13 +66,6 @@ fn energy(ui: &mut Ui, viewport: Rect, session: &mut Session) {
         let rect = Rect::from_min_size(corner, vec2(4.5, 12.0));
         ui.painter().rect_filled(rect, CornerRadius::ZERO, Color32::from_rgb(r, g, b));
     }
-}
-
-fn card(ui: &Ui, viewport: Rect, size: Vec2, session: &Session) -> Rect {
-    let card = Rect::from_min_size(pos2(viewport.left() + 12.0, viewport.bottom() - size.y - 12.0), size);
-    let fill = theme::palette(session.look.theme).panel.gamma_multiply(0.86);
-    ui.painter().rect_filled(card, CornerRadius::same(6), fill);
-    card
 }
 
 fn title(ui: &Ui, card: Rect, name: &str, low: &str, high: &str, session: &Session) {

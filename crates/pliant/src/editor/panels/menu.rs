@@ -2,7 +2,7 @@
 
 use egui::{MenuBar, Ui};
 
-use crate::editor::{Action, ColorBy, Job, Sample, Session};
+use crate::editor::{Action, ColorBy, Sample, Session};
 use crate::tools::ToolKind;
 use crate::viewport::Axis;
 
@@ -14,9 +14,7 @@ pub(in crate::editor) fn menu(ui: &mut Ui, session: &mut Session) -> Option<Acti
             items(ui, session, &[Action::Open], &mut chosen);
             ui.menu_button("Open sample", |ui| {
                 for sample in Sample::ALL {
-                    if ui.button(sample.name()).clicked() {
-                        session.start(Job::OpenSample(sample));
-                    }
+                    item(ui, session, Action::OpenSample(sample), None, &mut chosen);
                 }
             });
             ui.separator();
@@ -40,7 +38,7 @@ pub(in crate::editor) fn menu(ui: &mut Ui, session: &mut Session) -> Option<Acti
             ];
             items(ui, session, &select, &mut chosen);
             ui.separator();
-            items(ui, session, &[Action::FillSelection, Action::FillAll, Action::Eyedropper], &mut chosen);
+            items(ui, session, &[Action::FillSelection, Action::FillAll], &mut chosen);
             ui.separator();
             items(ui, session, &[Action::DeleteHandle, Action::ResetPose], &mut chosen);
         });

@@ -26,13 +26,17 @@ pub(in crate::editor) fn notices(ui: &Ui, viewport: Rect, session: &mut Session)
                     ui.set_width(width);
                     ui.horizontal_top(|ui| {
                         ui.label(RichText::new(word).color(color).strong());
-                        let text_width = ui.available_width() - 34.0;
-                        ui.allocate_ui(vec2(text_width, 0.0), |ui| ui.add(egui::Label::new(&notice.text).wrap()));
-                        let button = ui.button("×").on_hover_text("Dismiss");
-                        button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, "Dismiss message"));
-                        if button.clicked() {
-                            dismissed = Some(index);
-                        }
+                        ui.with_layout(egui::Layout::right_to_left(egui::Align::Min), |ui| {
+                            let button = ui.button("×").on_hover_text("Dismiss");
+                            button
+                                .widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, "Dismiss message"));
+                            if button.clicked() {
+                                dismissed = Some(index);
+                            }
+                            ui.with_layout(egui::Layout::left_to_right(egui::Align::Min), |ui| {
+                                ui.add(egui::Label::new(&notice.text).wrap());
+                            });
+                        });
                     });
                 });
             }

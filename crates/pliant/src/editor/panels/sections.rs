@@ -108,7 +108,12 @@ pub(super) fn handles(ui: &mut Ui, session: &mut Session, chosen: &mut Option<Ac
     }
     let mut commands = Vec::new();
     for group in groups.iter() {
-        ui.push_id(group.id.0, |ui| group_row(ui, group, active == Some(group.id), &mut commands));
+        ui.push_id(group.id.0, |ui| {
+            group_row(ui, group, active == Some(group.id), &mut commands);
+            if active == Some(group.id) {
+                name_field(ui, group, &mut commands);
+            }
+        });
     }
     commands.into_iter().for_each(|command| session.apply(command));
     ui.horizontal(|ui| {
@@ -144,6 +149,22 @@ fn group_row(ui: &mut Ui, group: &Group, is_active: bool, commands: &mut Vec<Com
             }
         });
     });
+}
+
+/// Renames the group; what is typed becomes its name when the field is left.
+fn name_field(ui: &mut Ui, group: &Group, commands: &mut Vec<Command>) {
+    let id = ui.make_persistent_id("name");
+    let mut name = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_else(|| group.name.clone());
+    let field = ui.add(egui::TextEdit::singleline(&mut name).hint_text("Name").desired_width(160.0));
+    if field.lost_focus() {
+        ui.data_mut(|data| data.remove::<String>(id));
+        let name = name.trim().to_owned();
+        if !name.is_empty() && name != group.name {
+            commands.push(Command::Rename(group.id, name));
+        }
+    } else if field.has_focus() {
+        ui.data_mut(|data| data.insert_temp(id, name));
+    }
 }
 
 /// Energy curve, weights, loose parts.

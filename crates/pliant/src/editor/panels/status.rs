@@ -15,7 +15,7 @@ pub(in crate::editor) fn status(ui: &mut Ui, session: &mut Session, is_software:
             ui.separator();
             ui.label(RichText::new(format!("{} vertices", grouped(mesh.n_vertices()))).color(quiet));
         }
-        let report = session.status.report.as_ref().filter(|report| report.pose.is_some());
+        let report = session.status.report.as_ref().filter(|report| !report.energies.is_empty());
         if let Some(report) = report {
             ui.separator();
             let energy = format!("energy {}", scientific(report.energy));
@@ -51,6 +51,7 @@ pub(in crate::editor) fn status(ui: &mut Ui, session: &mut Session, is_software:
 fn state(ui: &mut Ui, session: &Session) {
     let (color, text) = match (session.running_job(), session.status.report.as_ref().map(|report| &report.state)) {
         (Some(job), _) => (theme::ACCENT, job.to_owned()),
+        (None, None) if session.document().is_some() => (theme::ACCENT, "Preparing".to_owned()),
         (None, None) => (Color32::GRAY, "Nothing open".to_owned()),
         (None, Some(SolveState::Resting)) => (Color32::GRAY, "No handles yet".to_owned()),
         (None, Some(SolveState::Preparing)) => (theme::ACCENT, "Preparing".to_owned()),
