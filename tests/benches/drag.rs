@@ -35,10 +35,7 @@ fn session_drag() {
     let start = Instant::now();
     for frame in 0..FRAMES {
         let begun = Instant::now();
-        session.apply(Command::Move {
-            group: handle,
-            motion: motion(frame),
-        });
+        session.apply(Command::Move { group: handle, motion: motion(frame) });
         session.poll();
         let marks = session.marks();
         assert!(marks.outline.is_empty());
@@ -54,9 +51,7 @@ fn session_drag() {
         }
     }
     let seconds = start.elapsed().as_secs_f64();
-    let vertices = session
-        .document()
-        .map_or(0, |document| document.model().mesh.n_vertices());
+    let vertices = session.document().map_or(0, |document| document.model().mesh.n_vertices());
     println!("drag without drawing: {vertices} vertices, r 1 to 6, {FRAMES} frames at 60 Hz");
     println!("  surfaces a second        {:8.1}", f64::from(surfaces) / seconds);
     print_times("  session's work a frame", &mut work);
@@ -82,10 +77,7 @@ fn window_drag() {
     let (mut ui, mut drawing) = (Vec::new(), Vec::new());
     for frame in 0..FRAMES {
         let begun = Instant::now();
-        window.state_mut().session().apply(Command::Move {
-            group: handle,
-            motion: motion(frame),
-        });
+        window.state_mut().session().apply(Command::Move { group: handle, motion: motion(frame) });
         window.hover_at(corner + egui::vec2(frame as f32 * 0.5, 0.0));
         window.step();
         let work = window.state_mut().last_frame_work();
@@ -105,25 +97,14 @@ fn prepare(session: &mut Session, mut wait: impl FnMut(&mut Session)) -> GroupId
     }
     let document = session.document().expect("just opened");
     let positions = document.model().mesh.positions();
-    let highest = (0..positions.len())
-        .max_by(|&a, &b| positions[a].y.total_cmp(&positions[b].y))
-        .expect("a vertex");
+    let highest = (0..positions.len()).max_by(|&a, &b| positions[a].y.total_cmp(&positions[b].y)).expect("a vertex");
     let top = positions[highest];
     let near = (0..positions.len() as u32).filter(|&v| positions[v as usize].distance(top) < 0.1);
     let vertices = near.map(VertexId).collect();
-    let mixed = (0..positions.len() as u32)
-        .map(|v| (VertexId(v), 1 + (v / 97 % 6) as u16))
-        .collect();
+    let mixed = (0..positions.len() as u32).map(|v| (VertexId(v), 1 + (v / 97 % 6) as u16)).collect();
     session.apply(Command::Paint { values: mixed });
-    session.apply(Command::Hold {
-        kind: GroupKind::Handle,
-        vertices,
-    });
-    let handle = session
-        .document()
-        .and_then(|document| document.scene().groups.last())
-        .expect("just placed")
-        .id;
+    session.apply(Command::Hold { kind: GroupKind::Handle, vertices });
+    let handle = session.document().and_then(|document| document.scene().groups.last()).expect("just placed").id;
     let revision = session.document().map_or(0, |document| document.revision());
     while session
         .status
@@ -144,10 +125,5 @@ fn motion(frame: u32) -> DAffine3 {
 fn print_times(what: &str, times: &mut [Duration]) {
     times.sort_unstable();
     let at = |fraction: f64| times[((times.len() - 1) as f64 * fraction) as usize].as_secs_f64() * 1e3;
-    println!(
-        "{what}   median {:6.2} ms, 99 % {:6.2} ms, largest {:6.2} ms",
-        at(0.5),
-        at(0.99),
-        at(1.0)
-    );
+    println!("{what}   median {:6.2} ms, 99 % {:6.2} ms, largest {:6.2} ms", at(0.5), at(0.99), at(1.0));
 }

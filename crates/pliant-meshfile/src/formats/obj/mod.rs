@@ -36,6 +36,7 @@ struct ObjSource {
     materials: Vec<Material>,
     /// Material libraries the file names.
     libraries: Vec<String>,
+    has_polygons: bool,
     folder: Option<std::path::PathBuf>,
 }
 
@@ -61,6 +62,7 @@ pub(super) fn read(input: Input<'_>) -> Result<Opened, Fault> {
         parts: parsed.parts,
         materials,
         libraries: parsed.libraries,
+        has_polygons: parsed.has_polygons,
         folder: input.folder.map(Path::to_owned),
     };
     Ok(Opened {
@@ -91,6 +93,15 @@ fn display_uvs(parsed: &parse::Parsed) -> Option<Vec<Vec2>> {
     Some(uvs.into_iter().map(Option::unwrap_or_default).collect())
 }
 
+impl ObjSource {
+    /// What a shape does not keep of this very file.
+    fn left_behind(&self) -> Vec<&'static str> {
+        let polygons = self.has_polygons.then_some("polygons of more than three corners");
+        let materials = (!self.libraries.is_empty()).then_some("textures and material settings beyond the base color");
+        polygons.into_iter().chain(materials).collect()
+    }
+}
+
 impl Source for ObjSource {
     fn rewrite(&self, edit: &Edit<'_>, to: &Path, format: Format) -> Option<Result<Output, SaveError>> {
         (format == Format::Obj).then(|| rewrite::rewrite(self, edit, to))
@@ -110,11 +121,7 @@ impl Source for ObjSource {
             parts: self.parts.clone(),
             materials: self.materials.clone(),
             rigidity: edit.rigidity.clone().or_else(|| edit.mesh.rigidity.clone()),
-            left_behind: if self.libraries.is_empty() {
-                vec!["comments", "polygons of more than three corners"]
-            } else {
-                vec!["comments", "polygons of more than three corners", "textures"]
-            },
+            left_behind: self.left_behind(),
         }
     }
 }

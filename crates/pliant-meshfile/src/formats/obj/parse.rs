@@ -22,6 +22,8 @@ pub(super) struct Parsed {
     /// Names used by `usemtl`; `ShapePart::material` counts in it.
     pub(super) material_names: Vec<String>,
     pub(super) libraries: Vec<String>,
+    /// Whether any face has more than three corners.
+    pub(super) has_polygons: bool,
     pub(super) warnings: Vec<Warning>,
 }
 
@@ -159,6 +161,7 @@ impl Reader {
             outline.extend(corners.iter().map(|c| self.out.positions[c.0 as usize]));
             cut.clear();
             polygon::triangulate(&outline, &mut cut);
+            self.out.has_polygons |= outline.len() > 3;
             for triangle in &cut {
                 let of = triangle.map(|local| corners[local as usize]);
                 self.out.triangles.push(of.map(|c| c.0));

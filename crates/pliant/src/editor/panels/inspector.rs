@@ -10,6 +10,8 @@ use crate::tools::ToolKind;
 pub(in crate::editor) fn inspector(ui: &mut Ui, session: &mut Session) -> Option<Action> {
     let mut chosen = None;
     ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
+        // Room for the scroll bar, which would lie over the rightmost buttons.
+        ui.set_max_width(ui.available_width() - 8.0);
         ui.add_space(4.0);
         let kind = session.tool_kind();
         ui.label(RichText::new(kind.label()).heading());
