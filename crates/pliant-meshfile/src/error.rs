@@ -76,6 +76,14 @@ pub enum Fault {
         /// File vertices of the mesh.
         expected: usize,
     },
+    /// A sidecar that was read for its name alone.
+    #[error("{fault}; it is read because it lies beside {mesh}: correct, rename or delete it")]
+    Sidecar {
+        /// Name of the mesh file.
+        mesh: String,
+        /// What is wrong with the sidecar.
+        fault: Box<Fault>,
+    },
     /// A rigidity that is no whole number from 1 to 1000.
     #[error("entry {entry} is {value}: a rigidity is a whole number from 1 to 1000")]
     Rigidity {

@@ -26,7 +26,6 @@ pub(crate) fn read(path: &Path, limit: u64) -> Result<Vec<u8>, OpenError> {
 /// `reference` is a plain relative path with forward slashes. Links are followed, and refused when they lead outside.
 pub(crate) fn read_beside(folder: Option<&Path>, reference: &str, limit: u64) -> Result<Vec<u8>, String> {
     let folder = folder.ok_or("no folder to look in")?;
-    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let foreign = reference.is_empty()
         || reference.starts_with('/')
         || reference.contains(['\\', ':', '\0'])
@@ -34,8 +33,14 @@ pub(crate) fn read_beside(folder: Option<&Path>, reference: &str, limit: u64) ->
     if foreign {
         return Err("outside the folder".into());
     }
+    read_inside(folder, &folder.join(reference), limit)
+}
+
+/// Reads a regular file of `folder`; links are followed, and refused when they lead outside.
+pub(crate) fn read_inside(folder: &Path, path: &Path, limit: u64) -> Result<Vec<u8>, String> {
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let root = folder.canonicalize().map_err(|e| e.to_string())?;
-    let path = root.join(reference).canonicalize().map_err(|e| e.to_string())?;
+    let path = path.canonicalize().map_err(|e| e.to_string())?;
     if !path.starts_with(&root) {
         return Err("outside the folder".into());
     }
@@ -44,6 +49,11 @@ pub(crate) fn read_beside(folder: Option<&Path>, reference: &str, limit: u64) ->
         OpenError::Content { fault, .. } => fault.to_string(),
         other => other.to_string(),
     })
+}
+
+/// Whether something has this name already, be it a link to nothing.
+pub(crate) fn is_taken(path: &Path) -> bool {
+    fs::symlink_metadata(path).is_ok()
 }
 
 /// Decodes `%20` and its like once; `None` when the result is not text.

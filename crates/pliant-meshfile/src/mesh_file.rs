@@ -64,7 +64,7 @@ pub fn open(path: &Path) -> Result<MeshFile, OpenError> {
     let mut file = read(input, format).map_err(|fault| fault.in_file(path))?;
     file.path = Some(path.to_owned());
     if format.entry().rigidity_in_sidecar {
-        read_sidecar(&mut file, &rigidity::sidecar_of(path))?;
+        read_sidecar(&mut file, path)?;
     }
     Ok(file)
 }
@@ -83,14 +83,19 @@ fn read(input: Input<'_>, format: Format) -> Result<MeshFile, Fault> {
 }
 
 /// A sidecar that is broken is an error, since saving over it would lose it.
-fn read_sidecar(file: &mut MeshFile, sidecar: &Path) -> Result<(), OpenError> {
-    if !sidecar.exists() {
+fn read_sidecar(file: &mut MeshFile, mesh: &Path) -> Result<(), OpenError> {
+    let sidecar = rigidity::sidecar_of(mesh);
+    if !files::is_taken(&sidecar) {
         return Ok(());
     }
-    let bytes = files::read(sidecar, budget::TEXT_BYTES)?;
-    let rigidity = rigidity::parse(&bytes)
-        .and_then(|rigidity| rigidity::check_count(rigidity, file.positions.len()))
-        .map_err(|fault| fault.in_file(sidecar))?;
+    let read = files::read_inside(files::folder_of(&sidecar), &sidecar, budget::TEXT_BYTES);
+    let rigidity = read
+        .map_err(|reason| Fault::Container(format!("cannot be read: {reason}")))
+        .and_then(|bytes| rigidity::parse(&bytes, file.positions.len()))
+        .map_err(|fault| {
+            let mesh = mesh.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            Fault::Sidecar { mesh, fault: Box::new(fault) }.in_file(&sidecar)
+        })?;
     file.rigidity = Some(rigidity);
     Ok(())
 }
@@ -164,7 +169,8 @@ impl MeshFile {
     /// Writes this file with new world positions and r of its surface points, everything else as it was opened.
     ///
     /// `to` may be the file that was opened. The file is complete or untouched whatever happens. Returns what the
-    /// format of `to` could not hold. Without `rigidity` none is written and one in the file stays.
+    /// format of `to` could not hold. Without `rigidity` the file's own stays, if it has any; a sidecar that another
+    /// model left beside `to` is then filled with ones.
     pub fn save(&self, to: &Path, points: &[DVec3], rigidity: Option<&[u16]>) -> Result<Vec<Warning>, SaveError> {
         let format = Format::of(to).ok_or_else(|| SaveError::UnknownFormat { path: to.to_owned() })?;
         let edit = self.edit(to, points, rigidity)?;
@@ -174,14 +180,25 @@ impl MeshFile {
             None => self.convert(&edit, to, format)?,
         };
         let mut all = output.beside;
-        // What was read from one sidecar goes on in the next.
-        let rigidity = edit.rigidity.as_ref().or(self.rigidity.as_ref());
-        if let (true, Some(rigidity)) = (entry.rigidity_in_sidecar, rigidity) {
-            all.push((rigidity::sidecar_of(to), rigidity::to_json(rigidity)));
+        if entry.rigidity_in_sidecar {
+            all.extend(self.sidecar(&edit, to));
         }
         all.push((to.to_owned(), output.bytes));
         files::write_all(&all)?;
         Ok(output.warnings)
+    }
+
+    /// The sidecar that belongs beside `to`, if any does.
+    fn sidecar(&self, edit: &Edit<'_>, to: &Path) -> Option<(PathBuf, Vec<u8>)> {
+        let sidecar = rigidity::sidecar_of(to);
+        // What was read from one sidecar goes on in the next.
+        let json = match edit.rigidity.as_ref().or(self.rigidity.as_ref()) {
+            Some(rigidity) => rigidity::to_json(rigidity),
+            // One that another model left would be read as this one's.
+            None if files::is_taken(&sidecar) => rigidity::to_json(&vec![1; self.positions.len()]),
+            None => return None,
+        };
+        Some((sidecar, json))
     }
 
     fn convert(&self, edit: &Edit<'_>, to: &Path, format: Format) -> Result<Output, SaveError> {

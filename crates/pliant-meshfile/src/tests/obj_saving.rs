@@ -59,6 +59,48 @@ fn rigidity_lives_in_a_sidecar() {
 }
 
 #[test]
+fn a_sidecar_of_another_model_is_not_taken_over() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("out.obj");
+    for stale in ["[9,9,9,9,9]", "[9]", "broken"] {
+        std::fs::write(folder.path().join("out.rigidity.json"), stale).expect("a file");
+        let file = obj(OBJ);
+        file.save(&path, &file.points(), None).expect("saved");
+        let again = crate::open(&path).unwrap_or_else(|error| panic!("{stale}: {error}"));
+        assert_eq!(again.rigidity.as_deref(), Some(&[1; 5][..]), "{stale}");
+    }
+}
+
+#[test]
+fn a_sidecar_that_does_not_fit_says_why_it_is_read() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("m.obj");
+    std::fs::write(&path, OBJ).expect("a file");
+    let sidecar = folder.path().join("m.rigidity.json");
+    std::fs::write(&sidecar, "[1, 2]").expect("a file");
+    let error = crate::open(&path).expect_err("two entries").to_string();
+    let expected = format!(
+        "{}: holds 2 rigidities, the mesh has 5 vertices: one per vertex is needed; it is read because it lies beside \
+         m.obj: correct, rename or delete it",
+        sidecar.display()
+    );
+    assert_eq!(error, expected);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_sidecar_that_leads_out_of_the_folder_is_not_followed() {
+    let outer = tempfile::tempdir().expect("a temporary folder");
+    let folder = outer.path().join("model");
+    std::fs::create_dir(&folder).expect("a folder");
+    std::fs::write(outer.path().join("secret"), "[1,1,1,1,1]").expect("a file");
+    std::fs::write(folder.join("m.obj"), OBJ).expect("a file");
+    std::os::unix::fs::symlink(outer.path().join("secret"), folder.join("m.rigidity.json")).expect("a link");
+    let error = crate::open(&folder.join("m.obj")).expect_err("a link out").to_string();
+    assert!(error.contains("cannot be read: outside the folder"), "{error}");
+}
+
+#[test]
 fn tobj_reads_the_same_geometry() {
     let file = obj(OBJ);
     let options = tobj::LoadOptions { triangulate: true, ..tobj::LoadOptions::default() };
