@@ -15,6 +15,13 @@ pub(crate) const TEXT_BYTES: u64 = 256 << 20;
 pub(crate) const VERTICES: u64 = 20_000_000;
 /// Triangles of one model.
 pub(crate) const TRIANGLES: u64 = 40_000_000;
+/// Elements read from the accessors of one model: each triangle and vertex a few times over, since accessors may be
+/// shared and a file can name one of them any number of times.
+pub(crate) const ELEMENTS: u64 = 8 * TRIANGLES;
+/// Bytes of one part's name; a longer one is cut.
+pub(crate) const NAME_BYTES: usize = 1 << 10;
+/// Bytes of the names of all parts: one name can serve every part of a file.
+pub(crate) const ALL_NAME_BYTES: u64 = 256 << 20;
 /// Nodes of one glTF scene graph.
 pub(crate) const NODES: u64 = 1_000_000;
 /// Corners of one polygon.
@@ -26,4 +33,50 @@ pub(crate) fn check(what: &'static str, found: u64, limit: u64) -> Result<(), Fa
         return Err(Fault::Budget { what, found, limit });
     }
     Ok(())
+}
+
+/// A limit on a sum, spent bit by bit.
+#[derive(Debug)]
+pub(crate) struct Purse {
+    what: &'static str,
+    spent: u64,
+    limit: u64,
+}
+
+impl Purse {
+    pub(crate) fn new(what: &'static str, limit: u64) -> Purse {
+        Purse { what, spent: 0, limit }
+    }
+
+    /// Refuses what would go beyond the limit.
+    pub(crate) fn spend(&mut self, n: usize) -> Result<(), Fault> {
+        self.spent += n as u64;
+        check(self.what, self.spent, self.limit)
+    }
+
+    /// For the names of parts, of which one can serve every part of a file.
+    pub(crate) fn of_names() -> Purse {
+        Purse::new("bytes in the names of parts", ALL_NAME_BYTES)
+    }
+}
+
+/// A name of at most [`NAME_BYTES`].
+pub(crate) fn short_name(mut name: String) -> String {
+    name.truncate(name.floor_char_boundary(NAME_BYTES));
+    name.shrink_to_fit();
+    name
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sum_is_refused_where_it_passes_its_limit() {
+        let mut purse = Purse::new("pieces", 5);
+        purse.spend(3).expect("three of five");
+        purse.spend(2).expect("five of five");
+        let fault = purse.spend(1).expect_err("six of five").to_string();
+        assert_eq!(fault, "6 pieces are more than the limit of 5");
+    }
 }

@@ -2,6 +2,7 @@
 
 mod bad_files;
 mod conversion;
+mod gltf_reading;
 mod gltf_saving;
 mod mutation;
 mod obj_saving;

@@ -57,7 +57,7 @@ impl Component {
             Component::U8 => (f64::from(b[0]), 255.0),
             Component::I16 => (f64::from(i16::from_le_bytes([b[0], b[1]])), 32767.0),
             Component::U16 => (f64::from(u16::from_le_bytes([b[0], b[1]])), 65535.0),
-            Component::U32 => (f64::from(u32::from_le_bytes([b[0], b[1], b[2], b[3]])), 4294967295.0),
+            Component::U32 => (f64::from(u32::from_le_bytes([b[0], b[1], b[2], b[3]])), 1.0),
             Component::F32 => (f64::from(f32::from_le_bytes([b[0], b[1], b[2], b[3]])), 1.0),
         }
     }
@@ -103,14 +103,20 @@ impl<'a> Data<'a> {
         let size = component.size() * width;
         let offset = json::number(accessor, "byteOffset", &place)?.unwrap_or(0);
         let dense = match accessor.get("bufferView") {
-            None => None,
+            // Zeros out of nothing: no file behind them bounds their number.
+            None => {
+                budget::check("elements in an accessor without data", count, budget::VERTICES)?;
+                None
+            }
             Some(_) => Some(self.strided(accessor, &place, offset, size, count)?),
         };
         let sparse = match accessor.get("sparse") {
             None => None,
             Some(sparse) => Some(self.sparse(sparse, &place, size, count)?),
         };
-        let normalized = accessor.get("normalized") == Some(&Value::Bool(true));
+        // Floating-point numbers are what they are, and so are 32-bit ones: the flag is for shorter types only.
+        let short = !matches!(component, Component::U32 | Component::F32);
+        let normalized = short && accessor.get("normalized") == Some(&Value::Bool(true));
         Ok(Accessor { component, width: width as usize, count: count as usize, normalized, dense, sparse })
     }
 
@@ -173,6 +179,16 @@ impl<'a> Data<'a> {
 }
 
 impl Accessor<'_> {
+    /// Whether its numbers are in the file; otherwise they are zeros but for the sparse ones.
+    pub(super) fn has_data(&self) -> bool {
+        self.dense.is_some()
+    }
+
+    /// How many elements it took to check the accessor.
+    pub(super) fn n_checked(&self) -> usize {
+        self.sparse.as_ref().map_or(0, |(targets, _)| targets.len())
+    }
+
     /// All numbers, element after element, normalized ones as fractions.
     pub(super) fn numbers(&self) -> Vec<f64> {
         let mut numbers = match &self.dense {

@@ -2,7 +2,7 @@
 
 use super::json;
 use crate::{Fault, Warning, budget};
-use glam::{DMat4, DQuat, DVec3};
+use glam::{DMat4, DQuat, DVec3, DVec4};
 use serde_json::Value;
 
 /// World transform of each mesh: that of the first node of the default scene that uses it, of the first node anywhere
@@ -76,7 +76,18 @@ fn world_transforms(nodes: &[Value], children: &[Vec<usize>], parents: &[Option<
 fn local_transform(node: &Value, index: usize) -> Result<DMat4, Fault> {
     let place = format!("node {index}");
     if let Some(matrix) = json::numbers::<16>(node, "matrix", &place)? {
-        return Ok(DMat4::from_cols_array(&matrix));
+        let matrix = DMat4::from_cols_array(&matrix);
+        let last = matrix.row(3);
+        // A few units of single precision away is a writer's rounding; more is a projection.
+        if !last.abs_diff_eq(DVec4::W, 1e-6) {
+            return Err(Fault::at(place, format!("the last row of its matrix is {last}, it must be [0, 0, 0, 1]")));
+        }
+        return Ok(DMat4 {
+            x_axis: matrix.x_axis.with_w(0.0),
+            y_axis: matrix.y_axis.with_w(0.0),
+            z_axis: matrix.z_axis.with_w(0.0),
+            w_axis: matrix.w_axis.with_w(1.0),
+        });
     }
     let scale = json::numbers(node, "scale", &place)?.map_or(DVec3::ONE, DVec3::from_array);
     let rotation = json::numbers(node, "rotation", &place)?.map_or(DQuat::IDENTITY, DQuat::from_array);

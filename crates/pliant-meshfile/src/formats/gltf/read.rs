@@ -1,13 +1,14 @@
 //! Geometry out of a glTF document.
 
 use super::super::{Input, Opened};
-use super::access::{Component, Data};
+use super::access::{Accessor, Component, Data};
 use super::{Block, GltfSource, Primitive, buffers, container, json, nodes};
 use crate::mesh_file::NO_MATERIAL;
 use crate::{Fault, Part, Warning, budget, rigidity};
 use glam::{DMat3, DMat4, DVec3, Vec2};
 use serde_json::Value;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
+use std::ops::Range;
 use std::sync::Arc;
 
 /// Geometry stored in ways that only a decoder could read: extension and what it does.
@@ -105,6 +106,13 @@ struct Reader<'a> {
     transforms: Vec<DMat4>,
     name: &'a str,
     block_of: HashMap<usize, usize>,
+    /// Attributes that a primitive has given for a block; they are read once however often they are named.
+    given: HashSet<(usize, Attribute)>,
+    /// Whether an accessor holds directions for a block, of so many numbers each.
+    turnable: HashMap<(usize, usize, usize), bool>,
+    elements: budget::Purse,
+    names: budget::Purse,
+    n_without_positions: usize,
     blocks: Vec<Block>,
     primitives: Vec<Primitive>,
     positions: Vec<DVec3>,
@@ -123,6 +131,11 @@ impl<'a> Reader<'a> {
             transforms,
             name,
             block_of: HashMap::new(),
+            given: HashSet::new(),
+            turnable: HashMap::new(),
+            elements: budget::Purse::new("elements read from accessors", budget::ELEMENTS),
+            names: budget::Purse::of_names(),
+            n_without_positions: 0,
             blocks: Vec::new(),
             primitives: Vec::new(),
             positions: Vec::new(),
@@ -142,6 +155,10 @@ impl<'a> Reader<'a> {
                 self.primitive(mesh, m, primitive, p)?;
             }
         }
+        if self.n_without_positions > 0 {
+            let text = format!("{} primitives have no positions and are not shown", self.n_without_positions);
+            self.warnings.push(Warning(text));
+        }
         Ok(())
     }
 
@@ -153,7 +170,7 @@ impl<'a> Reader<'a> {
             json::reference(attributes, name, &place, "accessor", n)
         };
         let Some(position) = attribute("POSITION")? else {
-            self.warnings.push(Warning(format!("{place} has no positions and is not shown")));
+            self.n_without_positions += 1;
             return Ok(());
         };
         let (normal, tangent, uv) = (attribute("NORMAL")?, attribute("TANGENT")?, attribute("TEXCOORD_0")?);
@@ -164,28 +181,59 @@ impl<'a> Reader<'a> {
         let start = self.triangles.len();
         self.faces(primitive, block, &place)?;
         let triangles = start..self.triangles.len();
-        self.attribute_of(block, r, "_RIGIDITY", Self::rigidity)?;
-        self.displayed(block, uv, "texture coordinates", Self::uv);
-        self.displayed(block, color, "colors", Self::color);
+        self.attribute_of(block, r, Attribute::Rigidity)?;
+        for (accessor, what) in [(uv, Attribute::Uv), (color, Attribute::Color)] {
+            // What only matters to the eye is passed over where it is broken.
+            if let Err(fault) = self.attribute_of(block, accessor, what) {
+                self.warnings.push(Warning(format!("{} are not shown: {fault}", what.words())));
+            }
+        }
         let n_primitives = mesh.get("primitives").and_then(Value::as_array).map_or(1, Vec::len);
         if !triangles.is_empty() {
             let name = json::name(mesh).map_or_else(|| format!("{} {m}", self.name), str::to_owned);
+            let name = budget::short_name(name);
             let name = if n_primitives > 1 { format!("{name}.{p}") } else { name };
+            self.names.spend(name.len())?;
             self.parts.push(Part { name, triangles: triangles.clone(), base_color: self.base_color(material) });
         }
-        let [normal, tangent] = [(normal, 3), (tangent, 4)].map(|(a, width)| self.turnable(a, block, width));
+        let normal = self.turnable(normal, block, 3)?;
+        let tangent = self.turnable(tangent, block, 4)?;
         self.primitives.push(Primitive { mesh: m, index: p, block, normal, tangent, uv, material, triangles });
         Ok(())
     }
 
     /// A directional attribute that can be rewritten; a broken one is kept as it is.
-    fn turnable(&mut self, accessor: Option<usize>, block: usize, width: usize) -> Option<usize> {
-        let count = self.blocks[block].vertices.len();
-        let checked = self.data.accessor(accessor?).ok().filter(|a| a.count == count && a.width == width);
-        if checked.is_none() {
-            self.warnings.push(Warning(format!("accessor {} cannot be read as directions and stays", accessor?)));
+    fn turnable(&mut self, accessor: Option<usize>, block: usize, width: usize) -> Result<Option<usize>, Fault> {
+        let Some(accessor) = accessor else { return Ok(None) };
+        let key = (block, accessor, width);
+        if let Some(&readable) = self.turnable.get(&key) {
+            return Ok(readable.then_some(accessor));
         }
-        checked.and(accessor)
+        let count = self.blocks[block].vertices.len();
+        let checked = self.data.accessor(accessor).ok().filter(|a| a.count == count && a.width == width);
+        match &checked {
+            // Read on saving.
+            Some(checked) => self.elements.spend(checked.count + checked.n_checked())?,
+            None => {
+                let text = format!("accessor {accessor} cannot be read as directions and stays");
+                self.warnings.push(Warning(text));
+            }
+        }
+        self.turnable.insert(key, checked.is_some());
+        Ok(checked.map(|_| accessor))
+    }
+
+    /// A checked accessor, paid for.
+    fn accessor(&mut self, index: usize) -> Result<Accessor<'a>, Fault> {
+        let checked = self.data.accessor(index)?;
+        self.elements.spend(checked.n_checked())?;
+        Ok(checked)
+    }
+
+    /// The numbers of an accessor, paid for.
+    fn numbers(&mut self, checked: &Accessor<'_>) -> Result<Vec<f64>, Fault> {
+        self.elements.spend(checked.count)?;
+        Ok(checked.numbers())
     }
 
     /// The file vertices of a POSITION accessor, numbered at its first use.
@@ -193,7 +241,7 @@ impl<'a> Reader<'a> {
         if let Some(&block) = self.block_of.get(&accessor) {
             return Ok(block);
         }
-        let checked = self.data.accessor(accessor)?;
+        let checked = self.accessor(accessor)?;
         let place = format!("accessor {accessor}");
         let readable = checked.width == 3 && checked.component != Component::U32;
         if !readable {
@@ -204,7 +252,7 @@ impl<'a> Reader<'a> {
         let world_from_local = self.transforms[mesh];
         let vertices = first..first + checked.count;
         let block = Block { accessor, vertices, world_from_local, local_from_world: world_from_local.inverse() };
-        let numbers = checked.numbers();
+        let numbers = self.numbers(&checked)?;
         self.positions.reserve_exact(checked.count);
         for (i, local) in numbers.chunks_exact(3).enumerate() {
             let local = DVec3::new(local[0], local[1], local[2]);
@@ -226,16 +274,19 @@ impl<'a> Reader<'a> {
         if mode > 6 {
             return Err(Fault::at(place, format!("mode {mode} is not known")));
         }
+        if mode < 4 {
+            return Ok(());
+        }
         let Block { vertices, world_from_local, .. } = self.blocks[block].clone();
         let n_accessors = json::list(self.data.document, "accessors")?.len();
         let indices = json::reference(primitive, "indices", place, "accessor", n_accessors)?;
         let corners: Vec<u32> = match indices {
-            None => (0..vertices.len() as u32).collect(),
+            None => {
+                self.elements.spend(vertices.len())?;
+                (0..vertices.len() as u32).collect()
+            }
             Some(accessor) => self.indices(accessor, vertices.len(), place)?,
         };
-        if mode < 4 {
-            return Ok(());
-        }
         let n_triangles = if mode == 4 { corners.len() / 3 } else { corners.len().saturating_sub(2) };
         budget::check("triangles", (self.triangles.len() + n_triangles) as u64, budget::TRIANGLES)?;
         let mirrored = DMat3::from_mat4(world_from_local).determinant() < 0.0;
@@ -256,13 +307,16 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    fn indices(&self, accessor: usize, n_vertices: usize, place: &str) -> Result<Vec<u32>, Fault> {
-        let checked = self.data.accessor(accessor)?;
+    fn indices(&mut self, accessor: usize, n_vertices: usize, place: &str) -> Result<Vec<u32>, Fault> {
+        let checked = self.accessor(accessor)?;
         let unsigned = matches!(checked.component, Component::U8 | Component::U16 | Component::U32);
+        if !checked.has_data() {
+            return Err(Fault::at(format!("accessor {accessor}"), "indices are in no bufferView"));
+        }
         if checked.width != 1 || !unsigned {
             return Err(Fault::at(format!("accessor {accessor}"), "indices are not unsigned whole numbers"));
         }
-        let indices: Vec<u32> = checked.numbers().into_iter().map(|x| x as u32).collect();
+        let indices: Vec<u32> = self.numbers(&checked)?.into_iter().map(|x| x as u32).collect();
         if let Some(i) = indices.iter().position(|&index| index as usize >= n_vertices) {
             let problem = format!("index {i} names vertex {}, the primitive has {n_vertices}", indices[i]);
             return Err(Fault::at(place, problem));
@@ -271,70 +325,45 @@ impl<'a> Reader<'a> {
     }
 
     /// Reads an attribute for a block, unless one of the primitives before gave it.
-    fn attribute_of(
-        &mut self,
-        block: usize,
-        accessor: Option<usize>,
-        what: &str,
-        store: fn(&mut Self, usize, usize, &[f64]) -> Result<(), Fault>,
-    ) -> Result<(), Fault> {
-        let Some(accessor) = accessor else { return Ok(()) };
-        let checked = self.data.accessor(accessor)?;
+    fn attribute_of(&mut self, block: usize, accessor: Option<usize>, what: Attribute) -> Result<(), Fault> {
+        let Some(accessor) = accessor.filter(|_| !self.given.contains(&(block, what))) else { return Ok(()) };
+        let checked = self.accessor(accessor)?;
         let vertices = self.blocks[block].vertices.clone();
+        let place = || format!("accessor {accessor}");
         if checked.count != vertices.len() {
-            let problem = format!("{what} of {} vertices, positions of {}", checked.count, vertices.len());
-            return Err(Fault::at(format!("accessor {accessor}"), problem));
+            let problem = format!("{} of {} vertices, positions of {}", what.words(), checked.count, vertices.len());
+            return Err(Fault::at(place(), problem));
         }
-        store(self, vertices.start, checked.width, &checked.numbers())
-    }
-
-    /// Like [`Self::attribute_of`], for what only matters to the eye: a broken one is passed over.
-    fn displayed(
-        &mut self,
-        block: usize,
-        accessor: Option<usize>,
-        what: &str,
-        store: fn(&mut Self, usize, usize, &[f64]) -> Result<(), Fault>,
-    ) {
-        if let Err(fault) = self.attribute_of(block, accessor, what, store) {
-            self.warnings.push(Warning(format!("{what} are not shown: {fault}")));
+        let width = checked.width;
+        if !what.widths().contains(&width) {
+            return Err(Fault::at(place(), format!("{width} numbers each are no {}", what.words())));
         }
-    }
-
-    fn rigidity(&mut self, first: usize, width: usize, numbers: &[f64]) -> Result<(), Fault> {
-        if self.rigidity.len() > first {
-            return Ok(());
-        }
-        self.rigidity.resize(first, 1);
-        for (i, &r) in numbers.iter().step_by(width.max(1)).enumerate() {
-            if !(1.0..=f64::from(rigidity::MAX)).contains(&r) || r.fract() != 0.0 {
-                return Err(Fault::Rigidity { entry: first + i, value: r.to_string() });
-            }
-            self.rigidity.push(r as u16);
-        }
-        Ok(())
-    }
-
-    fn uv(&mut self, first: usize, width: usize, numbers: &[f64]) -> Result<(), Fault> {
-        if width != 2 {
-            return Err(Fault::at("their accessor", "does not hold pairs"));
-        }
-        if self.uvs.len() <= first {
-            self.uvs.resize(first, Vec2::ZERO);
+        let numbers = self.numbers(&checked)?;
+        let elements = numbers.chunks_exact(width);
+        match what {
+            Attribute::Rigidity => self.rigidity(vertices, &numbers, accessor)?,
             // glTF has the origin at the upper left.
-            self.uvs.extend(numbers.chunks_exact(2).map(|uv| Vec2::new(uv[0] as f32, 1.0 - uv[1] as f32)));
+            Attribute::Uv => {
+                let uv = elements.map(|e| Vec2::new(finite(e[0], 0.0), 1.0 - finite(e[1], 1.0)));
+                room(&mut self.uvs, vertices, Vec2::ZERO).iter_mut().zip(uv).for_each(|(slot, uv)| *slot = uv);
+            }
+            Attribute::Color => {
+                let color = elements.map(|c| [c[0], c[1], c[2], c.get(3).copied().unwrap_or(1.0)]);
+                let color = color.map(|c| c.map(|x| finite(x, 1.0)));
+                room(&mut self.colors, vertices, [1.0; 4]).iter_mut().zip(color).for_each(|(slot, c)| *slot = c);
+            }
         }
+        self.given.insert((block, what));
         Ok(())
     }
 
-    fn color(&mut self, first: usize, width: usize, numbers: &[f64]) -> Result<(), Fault> {
-        if width < 3 {
-            return Err(Fault::at("their accessor", "does not hold colors"));
-        }
-        if self.colors.len() <= first {
-            self.colors.resize(first, [1.0; 4]);
-            let color = |c: &[f64]| [c[0], c[1], c[2], c.get(3).copied().unwrap_or(1.0)].map(|x| x as f32);
-            self.colors.extend(numbers.chunks_exact(width).map(color));
+    fn rigidity(&mut self, vertices: Range<usize>, numbers: &[f64], accessor: usize) -> Result<(), Fault> {
+        for ((i, slot), &r) in room(&mut self.rigidity, vertices, 1).iter_mut().enumerate().zip(numbers) {
+            if !(1.0..=f64::from(rigidity::MAX)).contains(&r) || r.fract() != 0.0 {
+                let problem = format!("_RIGIDITY is {r}: a rigidity is a whole number from 1 to {}", rigidity::MAX);
+                return Err(Fault::at(format!("accessor {accessor}, vertex {i}"), problem));
+            }
+            *slot = r as u16;
         }
         Ok(())
     }
@@ -343,4 +372,45 @@ impl<'a> Reader<'a> {
         let materials = json::list(self.data.document, "materials").unwrap_or_default();
         material.and_then(|m| materials.get(m)).map_or(NO_MATERIAL, super::shape::base_color)
     }
+}
+
+/// Attributes of which a model has one per file vertex, whatever primitives share it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+enum Attribute {
+    Rigidity,
+    Uv,
+    Color,
+}
+
+impl Attribute {
+    fn words(self) -> &'static str {
+        match self {
+            Attribute::Rigidity => "rigidities",
+            Attribute::Uv => "texture coordinates",
+            Attribute::Color => "colors",
+        }
+    }
+
+    /// How many numbers an element may have.
+    fn widths(self) -> &'static [usize] {
+        match self {
+            Attribute::Rigidity => &[1],
+            Attribute::Uv => &[2],
+            Attribute::Color => &[3, 4],
+        }
+    }
+}
+
+/// The places of some vertices in a list that grows to hold them; vertices that nothing is given for keep `rest`.
+fn room<T: Copy>(list: &mut Vec<T>, vertices: Range<usize>, rest: T) -> &mut [T] {
+    if list.len() < vertices.end {
+        list.resize(vertices.end, rest);
+    }
+    &mut list[vertices]
+}
+
+/// A number for display, `rest` where it is none that single precision holds.
+pub(super) fn finite(number: f64, rest: f32) -> f32 {
+    let number = number as f32;
+    if number.is_finite() { number } else { rest }
 }

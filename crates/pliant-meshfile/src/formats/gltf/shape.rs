@@ -13,7 +13,7 @@ use std::collections::HashMap;
 pub(super) fn base_color(material: &Value) -> [f32; 4] {
     let rough = material.get("pbrMetallicRoughness");
     let factor = rough.and_then(|rough| json::numbers::<4>(rough, "baseColorFactor", "").ok().flatten());
-    factor.unwrap_or([1.0; 4]).map(|x| x as f32)
+    factor.unwrap_or([1.0; 4]).map(|x| super::read::finite(x, 1.0))
 }
 
 /// The rotation of each file vertex's normal, `None` where its faces did not change.
@@ -24,11 +24,12 @@ pub(super) fn vertex_turns(source: &GltfSource, edit: &Edit<'_>) -> Vec<Option<D
     let mut keys: Vec<(u32, [u32; 3])> = mesh.weld.point_of_vertex.iter().map(|&point| (point, [0; 3])).collect();
     let mut seen = vec![false; source.blocks.len()];
     for primitive in &source.primitives {
+        if primitive.normal.is_none() || std::mem::replace(&mut seen[primitive.block], true) {
+            continue;
+        }
         let Some(normals) = directions(source, primitive.normal) else { continue };
-        if !std::mem::replace(&mut seen[primitive.block], true) {
-            for (key, normal) in keys[source.blocks[primitive.block].vertices.clone()].iter_mut().zip(&normals) {
-                key.1 = [normal[0], normal[1], normal[2]].map(|x| (x as f32 + 0.0).to_bits());
-            }
+        for (key, normal) in keys[source.blocks[primitive.block].vertices.clone()].iter_mut().zip(&normals) {
+            key.1 = [normal[0], normal[1], normal[2]].map(|x| (x as f32 + 0.0).to_bits());
         }
     }
     let mut clusters = HashMap::new();
@@ -110,7 +111,11 @@ fn world_normals(source: &GltfSource, edit: &Edit<'_>) -> Vec<Vec3> {
     }
     let turns = vertex_turns(source, edit);
     let mut normals = vec![Vec3::Z; edit.positions.len()];
-    for primitive in source.primitives.iter().rev() {
+    let mut seen = vec![false; source.blocks.len()];
+    for primitive in &source.primitives {
+        if primitive.normal.is_none() || std::mem::replace(&mut seen[primitive.block], true) {
+            continue;
+        }
         let block = &source.blocks[primitive.block];
         let to_world = DMat3::from_mat4(block.local_from_world).transpose();
         let Some(local) = directions(source, primitive.normal) else { continue };
