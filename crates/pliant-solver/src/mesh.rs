@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::topology::{HalfEdges, components, count_defects};
+use crate::topology::{Defects, HalfEdges, components, count_defects};
 use crate::{MeshError, VertexId};
 
 /// Coordinates beyond this would overflow when squared and summed.
@@ -21,23 +21,6 @@ pub struct Mesh {
     components: Vec<u32>,
     n_components: usize,
     defects: Defects,
-}
-
-/// How often a mesh departs from a closed, consistently oriented surface. None of it is an error.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Defects {
-    /// Edges with one face.
-    pub boundary_edges: usize,
-    /// Edges with more than two faces.
-    pub non_manifold_edges: usize,
-    /// Faces with a repeated vertex or without area.
-    pub degenerate_faces: usize,
-    /// Faces whose three vertices occur in an earlier face.
-    pub duplicate_faces: usize,
-    /// Vertices in no face.
-    pub unreferenced_vertices: usize,
-    /// Edges whose two faces run along them in the same direction.
-    pub inconsistent_edges: usize,
 }
 
 impl Mesh {

@@ -2,8 +2,6 @@
 
 use glam::DVec3;
 
-use crate::mesh::Defects;
-
 /// Twice the area over the longest side squared below which a face counts as without area. Rounding of coordinates
 /// far from the origin gives 1e-13 or so.
 const FLAT: f64 = 1e-12;
@@ -59,6 +57,23 @@ pub(crate) fn components(offsets: &[u32], neighbors: &[u32]) -> (Vec<u32>, usize
         n_components += 1;
     }
     (component, n_components as usize)
+}
+
+/// How often a mesh departs from a closed, consistently oriented surface. None of it is an error.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Defects {
+    /// Edges with one face.
+    pub boundary_edges: usize,
+    /// Edges with more than two faces.
+    pub non_manifold_edges: usize,
+    /// Faces with a repeated vertex or without area.
+    pub degenerate_faces: usize,
+    /// Faces whose three vertices occur in an earlier face.
+    pub duplicate_faces: usize,
+    /// Vertices in no face.
+    pub unreferenced_vertices: usize,
+    /// Edges whose two faces run along them in the same direction.
+    pub inconsistent_edges: usize,
 }
 
 pub(crate) fn count_defects(positions: &[DVec3], triangles: &[[u32; 3]], half_edges: &HalfEdges) -> Defects {

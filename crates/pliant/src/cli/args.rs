@@ -18,7 +18,7 @@ Exit codes: 0 done, 1 refused or failed (one line says why; nothing is written),
 /// Without a command the editor opens.
 #[derive(Debug, Parser)]
 #[command(name = "pliant", bin_name = "pliant", version, after_help = EDITOR_EXAMPLES)]
-#[command(args_conflicts_with_subcommands = true)]
+#[command(override_usage = "pliant [--quiet] [FILE]...\n       pliant [--quiet] <COMMAND> ...")]
 pub(super) struct Arguments {
     /// Files to open in the editor (OBJ, glTF, GLB); a sample when none is given
     #[arg(value_name = "FILE")]

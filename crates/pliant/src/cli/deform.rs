@@ -4,8 +4,8 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use glam::DVec3;
-use pliant_meshfile::{Format, MeshFile, Warning};
-use pliant_solver::{Mesh, Start, VertexId, Weights};
+use pliant_meshfile::{Format, MeshFile, SaveError, Warning};
+use pliant_solver::{Start, VertexId, Weights};
 
 use super::args::{DeformOptions, Method, StartChoice, WeightsChoice};
 use super::console::Console;
@@ -15,9 +15,14 @@ use super::report::{DeformReport, MeshCounts, RigiditySummary, peak_memory_bytes
 use super::rigidity::{self, ChosenRigidity};
 use super::solve::{Problem, Settings, milliseconds, solve};
 use super::staged::{Staged, check_target, same_file};
+use super::surface;
 
 /// Loose components named one by one; the others are only counted.
 const LOOSE_NAMED: usize = 5;
+
+/// Bytes by which a report grows after it was first written: digits of times, and what OUT's format could not hold, a
+/// few sentences of about 100 bytes.
+const ROOM_FOR_NEWS: usize = 16 << 10;
 
 pub(super) fn run(options: &DeformOptions, console: &mut Console<'_>) -> Result<(), Failure> {
     check_options(options)?;
@@ -34,7 +39,8 @@ fn run_in_pool(options: &DeformOptions, console: &mut Console<'_>) -> Result<(),
     let mut job = load(options, console)?;
     let load_ms = milliseconds(clock);
 
-    let mut solution = solve(&job.problem, settings(options), console)?;
+    let mut solution = solve(&job.problem, settings(options), console)
+        .map_err(|source| surface::unsolvable(source, &options.mesh, &job.file.weld))?;
     solution.times.load = load_ms;
     check_finite(&solution.positions, &job.file)?;
     warn_of_loose(&solution.loose, &job.file, &mut job.warnings);
@@ -80,7 +86,7 @@ fn check_options(options: &DeformOptions) -> Result<(), Failure> {
 
 fn check_paths(options: &DeformOptions) -> Result<(), Failure> {
     if Format::of(&options.output).is_none() {
-        return Err(Failure::UnknownExtension { path: options.output.clone() });
+        return Err(SaveError::UnknownFormat { path: options.output.clone() }.into());
     }
     check_target(&options.output)?;
     let mut inputs = vec![(options.handles.as_path(), "the handles")];
@@ -113,10 +119,8 @@ struct Job {
 
 fn load(options: &DeformOptions, console: &mut Console<'_>) -> Result<Job, Failure> {
     console.progress(|| format!("reading {}", options.mesh.display()));
-    let file = pliant_meshfile::open(&options.mesh)?;
+    let (file, mesh) = surface::open(&options.mesh)?;
     let mut warnings: Vec<String> = file.warnings.iter().map(ToString::to_string).collect();
-    let mesh = Mesh::new(file.points(), file.point_triangles())
-        .map_err(|source| Failure::Mesh { path: options.mesh.clone(), source })?;
     let handles = handles_file::read(&options.handles, &file)?;
     let ChosenRigidity { rigidity, is_explicit, warning } = match options.method {
         Method::Rring => rigidity::choose(options.rigidity.as_deref(), &file)?,
@@ -196,8 +200,8 @@ fn report(options: &DeformOptions, job: &Job, energies: Vec<f64>) -> DeformRepor
     }
 }
 
-/// Writes OUT and the report. The report's bytes are on the disk under another name before OUT is touched, so that a
-/// full or read-only disk is noticed in time.
+/// Writes OUT and the report. The report's bytes, and room for what is still to be added, are on the disk under another
+/// name before OUT is touched, so that a full or read-only disk is noticed in time.
 fn write(
     options: &DeformOptions,
     job: &Job,
@@ -208,7 +212,7 @@ fn write(
     let mut staged = match &options.report {
         Some(path) => {
             let mut staged = Staged::create(path)?;
-            staged.write(&to_json(report))?;
+            staged.reserve(&to_json(report), ROOM_FOR_NEWS)?;
             Some(staged)
         }
         None => None,
@@ -220,8 +224,8 @@ fn write(
     report.peak_memory_bytes = peak_memory_bytes();
     report.warnings.extend(lost.iter().map(ToString::to_string));
     if let Some(mut staged) = staged.take() {
-        staged.write(&to_json(report))?;
-        staged.commit()?;
+        let written = staged.write(&to_json(report)).and_then(|()| staged.commit());
+        written.map_err(|source| Failure::ReportLost { out: options.output.clone(), source: Box::new(source) })?;
     }
     Ok(())
 }

@@ -2,9 +2,11 @@
 
 use std::path::PathBuf;
 
-use pliant_meshfile::{Format, OpenError, SaveError};
+use pliant_meshfile::{OpenError, SaveError};
 use pliant_solver::{MeshError, SolveError};
 
+use crate::document::ModelError;
+use crate::editor::EditorError;
 use crate::viewport::GpuError;
 
 use super::handles_file::HandlesError;
@@ -17,26 +19,39 @@ pub(super) enum Failure {
     Usage(clap::Error),
     #[error("{option} is {value}, but must be {allowed}")]
     OutOfRange { option: &'static str, value: String, allowed: &'static str },
-    #[error("{}: unknown extension; use one of {}", path.display(), known_extensions())]
-    UnknownExtension { path: PathBuf },
     #[error("{}: a picture is written as PNG; use the extension .png", path.display())]
     NotPng { path: PathBuf },
     #[error("{}: there is no folder {}; create it first", path.display(), folder.display())]
     NoFolder { path: PathBuf, folder: PathBuf },
     #[error("{}: is a folder; name a file", path.display())]
     IsFolder { path: PathBuf },
+    #[error("{}: is not a regular file; name one", path.display())]
+    NotRegular { path: PathBuf },
     #[error("{}: {what} would overwrite {other}; name another file", path.display())]
     SamePath { path: PathBuf, what: &'static str, other: &'static str },
     #[error("{}: cannot write: {source}", path.display())]
     Write { path: PathBuf, source: std::io::Error },
+    /// The one failure after which there is an output.
+    #[error("{} is complete, but its report is missing: {source}", out.display())]
+    ReportLost { out: PathBuf, source: Box<Failure> },
     #[error("cannot draw or compress the picture: {0}")]
     Picture(#[from] image::ImageError),
+    #[error(
+        "--size is {}x{}, but the graphics device draws at most {}x{} of it; use a smaller one",
+        asked[0], asked[1], drawn[0], drawn[1]
+    )]
+    PictureSize { asked: [u32; 2], drawn: [u32; 2] },
     #[error("cannot start {threads} threads ({source}); use --threads with a smaller number")]
     Threads { threads: usize, source: rayon::ThreadPoolBuildError },
     #[error("{}: {source}", path.display())]
     Mesh { path: PathBuf, source: MeshError },
-    #[error("{}: vertex {vertex} has r = {r}, but r must be between 1 and {max}", path.display())]
-    Rigidity { path: PathBuf, vertex: usize, r: u16, max: u16 },
+    #[error(
+        "{}: its raw cotangents admit no minimum (first seen at vertex {vertex}); use --weights clamped",
+        path.display()
+    )]
+    Indefinite { path: PathBuf, vertex: usize },
+    #[error("{}: {source}", path.display())]
+    Solve { path: PathBuf, source: SolveError },
     #[error(
         "the result has coordinates that are not finite (first: vertex {vertex}); check that the handles are within reach of the mesh's size"
     )]
@@ -48,29 +63,36 @@ pub(super) enum Failure {
     #[error(transparent)]
     Handles(#[from] HandlesError),
     #[error(transparent)]
-    Solve(#[from] SolveError),
+    Model(#[from] ModelError),
     #[error(transparent)]
     Graphics(#[from] GpuError),
-    #[error("{0}{hint}", hint = command_line_hint(.0))]
-    NoWindow(String),
+    #[error("{0}; the command line works without a window: see pliant --help")]
+    Editor(EditorError),
 }
 
 impl Failure {
     pub(super) fn exit_code(&self) -> u8 {
         match self {
             Failure::Usage(_) => 2,
-            Failure::Graphics(_) | Failure::NoWindow(_) => 3,
+            Failure::Graphics(GpuError::NoAdapter { .. }) => 3,
+            Failure::Editor(EditorError::NoWindow(_) | EditorError::NoAdapter) => 3,
             _ => 1,
         }
     }
 }
 
-fn known_extensions() -> String {
-    let known: Vec<String> = Format::EXTENSIONS.iter().map(|extension| format!(".{extension}")).collect();
-    known.join(", ")
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-/// The editor's own message may already mention the way without a window.
-fn command_line_hint(message: &str) -> &'static str {
-    if message.contains("command line") { "" } else { "; the command line works without a window: see pliant --help" }
+    #[test]
+    fn exit_code_3_means_that_there_is_nothing_to_draw_on() {
+        let graphics = |error: GpuError| Failure::Graphics(error).exit_code();
+        assert_eq!(graphics(GpuError::NoAdapter { tried: "GL: none".to_owned() }), 3);
+        assert_eq!(graphics(GpuError::Unreadable { reason: "lost".to_owned() }), 1);
+        let editor = |error: EditorError| Failure::Editor(error).exit_code();
+        assert_eq!(editor(EditorError::NoWindow("no display".to_owned())), 3);
+        assert_eq!(editor(EditorError::NoAdapter), 3);
+        assert_eq!(editor(EditorError::NoThread(std::io::ErrorKind::OutOfMemory.into())), 1);
+    }
 }

@@ -17,10 +17,12 @@ use std::path::{Path, PathBuf};
 
 use glam::{DMat4, DVec3};
 use pliant_meshfile::MeshFile;
-use pliant_solver::VertexId;
+use pliant_solver::{LARGEST_COORDINATE, VertexId};
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
+
+use crate::document::bounds_of;
 
 /// No honest handles file is larger; the same limit as for the JSON part of a glTF file.
 const MAX_BYTES: u64 = 256 << 20;
@@ -77,8 +79,8 @@ enum Problem {
     MatrixLength { group: usize, got: usize },
     #[error("groups[{group}].matrix has the last row {row:?} instead of 0, 0, 0, 1; write it column by column")]
     MatrixRow { group: usize, row: [f64; 4] },
-    #[error("{place} is {vertex}, whose target is not finite")]
-    NotFinite { place: Place, vertex: u64 },
+    #[error("{place} is {vertex}, whose target has a coordinate that is not a number up to {LARGEST_COORDINATE:e}")]
+    TooFar { place: Place, vertex: u64 },
     #[error(
         "{second} (vertex {second_vertex}) and {first} (vertex {first_vertex}) are one point of the surface but go to two places; give it one target"
     )]
@@ -187,7 +189,7 @@ struct Collected<'a> {
 
 impl<'a> Collected<'a> {
     fn new(mesh: &'a MeshFile) -> Self {
-        let (min, max) = bounds(&mesh.positions);
+        let (min, max) = bounds_of(&mesh.positions);
         Collected { mesh, tolerance: SAME_TARGET * (max - min).length(), points: BTreeMap::new() }
     }
 
@@ -199,8 +201,9 @@ impl<'a> Collected<'a> {
         // The rest position of the point, not of the vertex: welded vertices then agree to the last bit.
         let rest = self.mesh.positions[self.mesh.weld.vertex_of_point[point as usize] as usize];
         let target = target(rest);
-        if !target.is_finite() {
-            return Err(Problem::NotFinite { place, vertex });
+        // Not (a coordinate > limit): one that is not a number is too far as well.
+        if !target.to_array().iter().all(|coordinate| coordinate.abs() <= LARGEST_COORDINATE) {
+            return Err(Problem::TooFar { place, vertex });
         }
         let &mut (present, first, first_vertex) = self.points.entry(point).or_insert((target, place, vertex));
         // Not (distance > tolerance): a distance that overflows is a conflict too.
@@ -219,15 +222,6 @@ impl<'a> Collected<'a> {
         let targets = self.points.values().map(|&(target, ..)| target).collect();
         Ok(Handles { held, targets })
     }
-}
-
-/// Smallest and largest coordinates; two zeros for no position at all.
-pub(super) fn bounds(positions: &[DVec3]) -> (DVec3, DVec3) {
-    let mut all = positions.iter().copied();
-    let Some(first) = all.next() else {
-        return (DVec3::ZERO, DVec3::ZERO);
-    };
-    all.fold((first, first), |(min, max), position| (min.min(position), max.max(position)))
 }
 
 #[cfg(test)]

@@ -6,12 +6,14 @@ use pliant_meshfile::MeshFile;
 use pliant_solver::{Defects, Mesh};
 use serde::Serialize;
 
+use crate::document::bounds_of;
+
 use super::args::InfoOptions;
 use super::console::Console;
 use super::failure::Failure;
-use super::handles_file::bounds;
 use super::report::{MeshCounts, RigiditySummary};
 use super::rigidity;
+use super::surface;
 
 /// Everything `info` says; the field names are those of `--json`.
 #[derive(Debug, Serialize)]
@@ -53,9 +55,7 @@ struct PartFacts {
 
 pub(super) fn run(options: &InfoOptions, console: &mut Console<'_>) -> Result<(), Failure> {
     console.progress(|| format!("reading {}", options.mesh.display()));
-    let file = pliant_meshfile::open(&options.mesh)?;
-    let mesh = Mesh::new(file.points(), file.point_triangles())
-        .map_err(|source| Failure::Mesh { path: options.mesh.clone(), source })?;
+    let (file, mesh) = surface::open(&options.mesh)?;
     let facts = facts(options, &file, &mesh)?;
     let text = if options.json {
         let json = serde_json::to_string_pretty(&facts);
@@ -70,7 +70,7 @@ pub(super) fn run(options: &InfoOptions, console: &mut Console<'_>) -> Result<()
 
 fn facts(options: &InfoOptions, file: &MeshFile, mesh: &Mesh) -> Result<Facts, Failure> {
     let chosen = rigidity::choose(None, file)?;
-    let (min, max) = bounds(&file.positions);
+    let (min, max) = bounds_of(&file.positions);
     let mut warnings: Vec<String> = file.warnings.iter().map(ToString::to_string).collect();
     warnings.extend(chosen.warning);
     let parts = file.parts.iter().map(|part| PartFacts { name: part.name.clone(), faces: part.triangles.len() });

@@ -23,6 +23,7 @@ mod report;
 mod rigidity;
 mod solve;
 mod staged;
+mod surface;
 
 pub use console::Console;
 
@@ -71,7 +72,7 @@ fn dispatch(parsed: Arguments, console: &mut Console<'_>) -> Result<(), Failure>
         Some(Command::Deform(options)) => deform::run(&options, console),
         Some(Command::Info(options)) => info::run(&options, console),
         Some(Command::Render(options)) => render::run(&options, console),
-        None => crate::editor::run(parsed.files).map_err(|error| Failure::NoWindow(error.to_string())),
+        None => crate::editor::run(parsed.files).map_err(Failure::Editor),
     }
 }
 

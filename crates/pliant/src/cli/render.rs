@@ -5,14 +5,13 @@ use std::sync::Arc;
 
 use glam::Vec3;
 use image::ImageFormat;
-use pliant_meshfile::MeshFile;
 
+use crate::document::Model;
 use crate::viewport::{Camera, Coloring, Shading, SurfaceFrame, Theme, ViewScene, picture};
 
 use super::args::{ColorChoice, RenderOptions};
 use super::console::Console;
 use super::failure::Failure;
-use super::handles_file::bounds;
 use super::rigidity;
 use super::staged::{Staged, check_target, same_file};
 
@@ -28,9 +27,11 @@ pub(super) fn run(options: &RenderOptions, console: &mut Console<'_>) -> Result<
     let file = pliant_meshfile::open(&options.mesh)?;
     let chosen = rigidity::choose(options.rigidity.as_deref(), &file)?;
     let warnings = file.warnings.iter().map(ToString::to_string).chain(chosen.warning);
-    let scene = scene(&file, chosen.rigidity.as_slice(), options.color);
+    let warnings: Vec<String> = warnings.collect();
+    let scene = scene(&Model::from_file(file)?, chosen.rigidity.as_slice(), options.color);
     console.progress(|| "drawing".to_owned());
     let drawn = picture(&scene, options.size)?;
+    check_size(options.size, drawn.dimensions().into())?;
     let mut png = Cursor::new(Vec::new());
     drawn.write_to(&mut png, ImageFormat::Png)?;
     let mut staged = Staged::create(&options.output)?;
@@ -65,18 +66,20 @@ fn check_options(options: &RenderOptions) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The file as it is, seen from the camera's three-quarter view.
-fn scene(file: &MeshFile, rigidity: &[u16], color: ColorChoice) -> ViewScene {
-    let points = file.points();
-    let triangles = file.point_triangles();
-    let (min, max) = bounds(&points);
-    let bounds = (min.as_vec3(), max.as_vec3());
-    let positions: Vec<Vec3> = points.iter().map(|point| point.as_vec3()).collect();
+/// Refuses a picture that the device drew smaller than asked.
+fn check_size(asked: [u32; 2], drawn: [u32; 2]) -> Result<(), Failure> {
+    if drawn == asked { Ok(()) } else { Err(Failure::PictureSize { asked, drawn }) }
+}
+
+/// The model as the editor shows it on opening, seen from the camera's three-quarter view.
+fn scene(model: &Model, rigidity: &[u16], color: ColorChoice) -> ViewScene {
+    let positions: Vec<Vec3> = model.mesh.positions().iter().map(|&point| model.to_view(point)).collect();
+    let triangles = &model.triangles;
     let mut normals = Vec::new();
-    pliant_geometry::VertexNormals::new(positions.len(), &triangles).compute(&positions, &triangles, &mut normals);
+    pliant_geometry::VertexNormals::new(positions.len(), triangles).compute(&positions, triangles, &mut normals);
     ViewScene {
-        base_colors: base_colors(file, &triangles).map(Into::into),
-        triangles: triangles.into(),
+        base_colors: model.base_colors.clone(),
+        triangles: triangles.clone(),
         values: Some(vec![0.0; positions.len()].into()),
         frame: Arc::new(SurfaceFrame { positions, normals }),
         rigidity: rigidity.into(),
@@ -94,21 +97,37 @@ fn scene(file: &MeshFile, rigidity: &[u16], color: ColorChoice) -> ViewScene {
         wireframe: false,
         grid: true,
         theme: Theme::Dark,
-        camera: Camera::framing(bounds.0, bounds.1),
-        bounds,
+        camera: Camera::framing(model.bounds.0, model.bounds.1),
+        bounds: model.bounds,
         pixels_per_point: 1.0,
     }
 }
 
-/// Color of the part each surface point belongs to, the last one where parts meet; none if no part has a color.
-fn base_colors(file: &MeshFile, triangles: &[[u32; 3]]) -> Option<Vec<[u8; 4]>> {
-    const WHITE: [u8; 4] = [255; 4];
-    let mut colors = vec![WHITE; file.weld.n_points()];
-    for part in &file.parts {
-        let color = part.base_color.map(|channel| (channel.clamp(0.0, 1.0) * 255.0).round() as u8);
-        for &point in triangles[part.triangles.clone()].iter().flatten() {
-            colors[point as usize] = color;
-        }
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+    use pliant_meshfile::MeshFile;
+
+    use super::*;
+
+    fn triangle_at(place: f64) -> ViewScene {
+        let positions = [DVec3::ZERO, DVec3::X, DVec3::Y].map(|corner| corner + place).to_vec();
+        let file = MeshFile::from_triangles("triangle", positions, vec![[0, 1, 2]]);
+        scene(&Model::from_file(file).expect("a sound triangle"), &[1, 1, 1], ColorChoice::None)
     }
-    colors.iter().any(|&color| color != WHITE).then_some(colors)
+
+    #[test]
+    fn a_mesh_far_from_the_origin_is_drawn_as_finely_as_one_at_the_origin() {
+        // 2^30: a 32-bit float there is a multiple of 64, and the triangle would shrink to a point.
+        let (near, far) = (triangle_at(0.0), triangle_at(1_073_741_824.0));
+        assert_eq!(far.frame.positions, near.frame.positions);
+        assert_eq!(far.bounds, near.bounds);
+    }
+
+    #[test]
+    fn a_picture_smaller_than_asked_is_refused() {
+        assert!(check_size([640, 480], [640, 480]).is_ok());
+        let said = check_size([8192, 480], [4096, 480]).expect_err("clamped").to_string();
+        assert!(said.contains("8192x480") && said.contains("4096x480"), "{said}");
+    }
 }

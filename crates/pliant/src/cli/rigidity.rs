@@ -1,6 +1,6 @@
 //! `--rigidity N|FILE`: r of every surface point, from the option, else from the mesh file, else 1.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use pliant_meshfile::{MeshFile, read_rigidity};
 use pliant_solver::Rigidity;
@@ -55,27 +55,22 @@ fn from_file(path: &Path, mesh: &MeshFile) -> Result<ChosenRigidity, Failure> {
         *largest = r.max(*largest);
     }
     let disagree = mesh.weld.point_of_vertex.iter().zip(&per_vertex).any(|(&point, &r)| per_point[point as usize] != r);
-    checked(per_point, disagree, path.to_owned(), mesh)
+    Ok(explicit(per_point, disagree, path))
 }
 
 fn carried(mesh: &MeshFile) -> Result<ChosenRigidity, Failure> {
     let Some((per_point, disagree)) = mesh.point_rigidity() else {
         return Ok(ones(mesh));
     };
-    checked(per_point, disagree, mesh.path.clone().unwrap_or_default(), mesh)
+    Ok(explicit(per_point, disagree, mesh.path.as_deref().unwrap_or(Path::new(""))))
 }
 
-fn checked(per_point: Vec<u16>, disagree: bool, path: PathBuf, mesh: &MeshFile) -> Result<ChosenRigidity, Failure> {
-    let wrong = per_point.iter().position(|r| !(1..=Rigidity::MAX).contains(r));
-    if let Some(point) = wrong {
-        let vertex = mesh.weld.vertex_of_point[point] as usize;
-        return Err(Failure::Rigidity { path, vertex, r: per_point[point], max: Rigidity::MAX });
-    }
+fn explicit(per_point: Vec<u16>, disagree: bool, path: &Path) -> ChosenRigidity {
     let warning = disagree.then(|| {
         format!("{}: vertices at one point of the surface disagree on r; the largest was taken", path.display())
     });
-    let rigidity = Rigidity::new(per_point).expect("every r was found in range above");
-    Ok(ChosenRigidity { rigidity, is_explicit: true, warning })
+    let rigidity = Rigidity::new(per_point).expect("the file layer lets only r from 1 to 1000 through");
+    ChosenRigidity { rigidity, is_explicit: true, warning }
 }
 
 #[cfg(test)]

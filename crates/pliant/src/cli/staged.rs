@@ -1,6 +1,8 @@
 //! Files that appear whole or not at all.
+//!
+//! Links are written through, and the permissions of a file that is replaced stay.
 
-use std::fs::{File, OpenOptions};
+use std::fs::{File, Permissions};
 use std::io::{Seek, Write};
 use std::path::{Path, PathBuf};
 
@@ -17,24 +19,35 @@ pub(super) struct Staged {
 impl Staged {
     /// Creates the temporary file: that the folder can be written to is known before any work is done.
     pub(super) fn create(target: &Path) -> Result<Staged, Failure> {
-        let name = target.file_name().unwrap_or_default().to_string_lossy();
-        let temporary = target.with_file_name(format!(".{name}.{}.tmp", std::process::id()));
+        let failed = |source| Failure::Write { path: target.to_owned(), source };
+        let end = target.canonicalize().unwrap_or_else(|_| target.to_owned());
+        let permissions = std::fs::metadata(&end).ok().map(|replaced| replaced.permissions());
+        if permissions.as_ref().is_some_and(Permissions::readonly) {
+            return Err(failed(std::io::Error::new(std::io::ErrorKind::PermissionDenied, "the file is read-only")));
+        }
+        let name = end.file_name().unwrap_or_default().to_string_lossy();
+        let temporary = end.with_file_name(format!(".{name}.{}.tmp", std::process::id()));
         // A leftover of a killed run with the same process number; it is nobody's by now.
         let _ = std::fs::remove_file(&temporary);
-        let file = OpenOptions::new()
-            .write(true)
-            .create_new(true)
-            .open(&temporary)
-            .map_err(|source| Failure::Write { path: target.to_owned(), source })?;
-        Ok(Staged { file, temporary, target: target.to_owned() })
+        let file = File::create_new(&temporary).map_err(failed)?;
+        let staged = Staged { file, temporary, target: end };
+        if let Some(permissions) = permissions {
+            staged.file.set_permissions(permissions).map_err(failed)?;
+        }
+        Ok(staged)
     }
 
-    /// Replaces what was written before and waits until the disk has it.
+    /// Writes `bytes` and takes `spare` bytes more from the disk: later writing up to that length needs no room.
+    pub(super) fn reserve(&mut self, bytes: &[u8], spare: usize) -> Result<(), Failure> {
+        self.write(&[bytes, &vec![b' '; spare]].concat())
+    }
+
+    /// Replaces what was written before, in place, and waits until the disk has it.
     pub(super) fn write(&mut self, bytes: &[u8]) -> Result<(), Failure> {
         let write = |file: &mut File| {
-            file.set_len(0)?;
             file.rewind()?;
             file.write_all(bytes)?;
+            file.set_len(bytes.len() as u64)?;
             file.sync_all()
         };
         write(&mut self.file).map_err(|source| self.failed(source))
@@ -57,28 +70,69 @@ impl Drop for Staged {
     }
 }
 
-/// Refuses a target that could not be written: a folder, or a file in a folder that does not exist.
+/// Refuses a target that could not be written: a folder, a device or a pipe, a file in a folder that does not exist.
 pub(super) fn check_target(path: &Path) -> Result<(), Failure> {
     if path.is_dir() {
         return Err(Failure::IsFolder { path: path.to_owned() });
     }
-    let folder = match path.parent() {
+    let folder = folder_of(path);
+    let Ok(real) = folder.canonicalize() else {
+        return Err(Failure::NoFolder { path: path.to_owned(), folder: folder.to_owned() });
+    };
+    // Names of the process's own streams: a rename would take the file behind one away from whoever reads it.
+    let is_stream = cfg!(unix) && (real == Path::new("/dev") || real.starts_with("/proc"));
+    if is_stream || (path.exists() && !path.is_file()) {
+        return Err(Failure::NotRegular { path: path.to_owned() });
+    }
+    Ok(())
+}
+
+fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
         Some(parent) if parent != Path::new("") => parent,
         _ => Path::new("."),
-    };
-    if folder.is_dir() { Ok(()) } else { Err(Failure::NoFolder { path: path.to_owned(), folder: folder.to_owned() }) }
+    }
 }
 
 /// Whether two names mean one file, through links and `..` where the files or their folders exist.
 pub(super) fn same_file(a: &Path, b: &Path) -> bool {
     let resolve = |path: &Path| {
-        path.canonicalize().ok().or_else(|| {
-            let folder = match path.parent() {
-                Some(parent) if parent != Path::new("") => parent,
-                _ => Path::new("."),
-            };
-            Some(folder.canonicalize().ok()?.join(path.file_name()?))
-        })
+        path.canonicalize().ok().or_else(|| Some(folder_of(path).canonicalize().ok()?.join(path.file_name()?)))
     };
     a == b || matches!((resolve(a), resolve(b)), (Some(a), Some(b)) if a == b)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_last_text_written_is_the_whole_file() {
+        let folder = tempfile::tempdir().expect("a new folder");
+        let target = folder.path().join("report.json");
+        let mut staged = Staged::create(&target).expect("a folder to write to");
+        staged.reserve(b"first", 100).expect("room");
+        assert!(!target.exists());
+        staged.write(b"the second").expect("room");
+        staged.commit().expect("a free name");
+        assert_eq!(std::fs::read(&target).expect("committed"), b"the second");
+        assert_eq!(std::fs::read_dir(folder.path()).expect("the folder").count(), 1);
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn a_link_is_written_through_and_permissions_stay() {
+        use std::os::unix::fs::{PermissionsExt, symlink};
+        let folder = tempfile::tempdir().expect("a new folder");
+        let (file, link) = (folder.path().join("file"), folder.path().join("link"));
+        std::fs::write(&file, "old").expect("a new file");
+        std::fs::set_permissions(&file, PermissionsExt::from_mode(0o640)).expect("our own file");
+        symlink(&file, &link).expect("a new link");
+        let mut staged = Staged::create(&link).expect("a folder to write to");
+        staged.write(b"new").expect("room");
+        staged.commit().expect("a file to replace");
+        assert!(link.is_symlink());
+        assert_eq!(std::fs::read(&file).expect("replaced"), b"new");
+        assert_eq!(file.metadata().expect("replaced").permissions().mode() & 0o777, 0o640);
+    }
 }

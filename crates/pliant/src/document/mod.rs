@@ -15,6 +15,7 @@ mod state;
 pub use commands::{Command, CommandError, SelectMode};
 pub use fill::region_of_equal_rigidity;
 pub use history::{History, Snapshot};
+pub(crate) use model::bounds_of;
 pub use model::{Model, ModelError};
 pub use scene::{Group, GroupId, GroupKind, Scene, Selection, held_by};
 pub use state::{Document, Pose};

@@ -6,7 +6,6 @@ use glam::DVec3;
 
 use super::commands::{Command, CommandError, Surroundings, changed};
 use super::{GroupId, History, Model, Scene, Snapshot};
-use crate::solving::{SolveReport, SolveRequest};
 
 /// World positions of all surface points at one moment. Cheap to clone.
 #[derive(Clone, Debug, PartialEq)]
@@ -188,21 +187,6 @@ impl Document {
         GroupId(self.next_group)
     }
 
-    /// The whole wish for the solver.
-    pub fn request(&self) -> SolveRequest {
-        SolveRequest {
-            revision: self.revision,
-            epoch: self.epoch,
-            pose: self.pose.clone(),
-            model: self.model.clone(),
-            rigidity: self.scene.rigidity.clone(),
-            groups: self.scene.groups.clone(),
-            weights: self.scene.weights,
-            loose: self.scene.loose,
-            wants_vertex_energies: false,
-        }
-    }
-
     /// Goes up with everything that matters to the solver.
     pub fn revision(&self) -> u64 {
         self.revision
@@ -215,9 +199,9 @@ impl Document {
 
     /// Takes over the solver's positions unless they belong to another model or to a time before the last jump.
     /// Answers to an older revision of the same epoch are welcome: during a drag they always are a little late.
-    pub fn accept(&mut self, report: &SolveReport) -> bool {
-        let current = Arc::ptr_eq(&report.model, &self.model) && report.epoch == self.epoch;
-        if current && let Some(pose) = &report.pose {
+    pub fn accept(&mut self, model: &Arc<Model>, epoch: u64, pose: Option<&Pose>) -> bool {
+        let current = Arc::ptr_eq(model, &self.model) && epoch == self.epoch;
+        if current && let Some(pose) = pose {
             self.pose = pose.clone();
         }
         current

@@ -289,5 +289,22 @@ pub fn run(files: Vec<PathBuf>) -> Result<(), EditorError> {
         ..Default::default()
     };
     eframe::run_native("pliant", options, Box::new(|cc| Ok(Box::new(EditorApp::new(cc, files)?))))
-        .map_err(|error| EditorError::NoWindow(error.to_string()))
+        .map_err(why_no_window)
+}
+
+fn why_no_window(error: eframe::Error) -> EditorError {
+    // The window system's own text names a file on the machine that built it.
+    let no_display = if cfg!(target_os = "linux") {
+        "no display: neither X11 nor Wayland can be reached"
+    } else {
+        "no display can be reached"
+    };
+    match error {
+        eframe::Error::AppCreation(source) => match source.downcast::<EditorError>() {
+            Ok(own) => *own,
+            Err(other) => EditorError::NoWindow(other.to_string()),
+        },
+        eframe::Error::Winit(_) | eframe::Error::WinitEventLoop(_) => EditorError::NoWindow(no_display.into()),
+        other => EditorError::NoWindow(other.to_string()),
+    }
 }

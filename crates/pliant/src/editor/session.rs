@@ -11,7 +11,7 @@ use pliant_solver::{Rigidity, VertexId};
 use super::jobs::{Jobs, Opened};
 use super::{ColorBy, Job, JobEvent, Look, NoticeKind, Notices, Sample};
 use crate::document::{Command, Document, GroupKind, Model, SelectMode, Snapshot};
-use crate::solving::{SolveReport, SolveState, Worker};
+use crate::solving::{SolveReport, SolveRequest, SolveState, Worker};
 use crate::tools::{Context, Input, Marks, Options, Surface, Tool, ToolKind, View};
 use crate::viewport::{Camera, SurfaceFrame};
 
@@ -210,7 +210,7 @@ impl Session {
 
     fn take_report(&mut self, report: SolveReport) {
         let Some(open) = &mut self.open else { return };
-        if !open.document.accept(&report) {
+        if !open.document.accept(&report.model, report.epoch, report.pose.as_ref()) {
             return;
         }
         if let Some(frame) = &report.frame {
@@ -291,9 +291,7 @@ impl Session {
         let wish = (open.document.revision(), energies);
         if self.sent != Some(wish) {
             self.sent = Some(wish);
-            let mut request = open.document.request();
-            request.wants_vertex_energies = energies;
-            self.worker.request(request);
+            self.worker.request(SolveRequest::of(&open.document, energies));
         }
     }
 

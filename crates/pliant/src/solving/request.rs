@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use pliant_solver::{LooseComponents, Rigidity, Weights};
 
-use crate::document::{Group, Model, Pose};
+use crate::document::{Document, Group, Model, Pose};
 use crate::viewport::SurfaceFrame;
 
 /// The whole wish: not what changed, but what should hold.
@@ -28,6 +28,24 @@ pub struct SolveRequest {
     pub loose: LooseComponents,
     /// Whether reports should carry the energy of every vertex.
     pub wants_vertex_energies: bool,
+}
+
+impl SolveRequest {
+    /// All that a document wants now.
+    pub fn of(document: &Document, wants_vertex_energies: bool) -> SolveRequest {
+        let scene = document.scene();
+        SolveRequest {
+            revision: document.revision(),
+            epoch: document.epoch(),
+            pose: document.pose().clone(),
+            model: document.model().clone(),
+            rigidity: scene.rigidity.clone(),
+            groups: scene.groups.clone(),
+            weights: scene.weights,
+            loose: scene.loose,
+            wants_vertex_energies,
+        }
+    }
 }
 
 /// How the solver is doing.

@@ -92,7 +92,13 @@ fn matrices_that_are_not_affine_are_refused() {
     let row_major = r#"{"groups": [{"vertices": [0], "matrix": [1,0,0,5, 0,1,0,6, 0,0,1,7, 0,0,0,1]}]}"#;
     refused(row_major, &["last row", "column by column"]);
     let huge = r#"{"groups": [{"vertices": [1], "matrix": [1e308,0,0,0, 0,1,0,0, 0,0,1,0, 1e308,0,0,1]}]}"#;
-    refused(huge, &["groups[0].vertices[0] is 1", "not finite"]);
+    refused(huge, &["groups[0].vertices[0] is 1", "not a number up to 1e100"]);
+}
+
+#[test]
+fn targets_too_far_away_to_be_squared_are_refused_with_their_place() {
+    refused(r#"{"moved": [{"vertex": 2, "to": [0, -2e100, 0]}]}"#, &["moved[0].vertex is 2", "1e100"]);
+    assert_eq!(check(r#"{"moved": [{"vertex": 2, "to": [0, -1e100, 0]}]}"#), Ok(vec![(2, [0.0, -1e100, 0.0])]));
 }
 
 #[test]

@@ -1,41 +1,10 @@
 //! Dots and lines: one small instance each, spread to pixels in the vertex program.
 
 use super::super::{Dot, Line, ViewScene};
+use super::instances::{DotInstance, LineInstance};
 use super::pipelines::Pipelines;
 use super::stream::Stream;
-use bytemuck::{Pod, Zeroable};
 use std::sync::Arc;
-
-#[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
-struct DotInstance {
-    position: [f32; 3],
-    radius: f32,
-    color: [u8; 4],
-}
-
-#[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
-struct LineInstance {
-    a: [f32; 3],
-    b: [f32; 3],
-    width: f32,
-    color: [u8; 4],
-}
-
-const DOT_ATTRIBUTES: [wgpu::VertexAttribute; 3] =
-    wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32, 2 => Unorm8x4];
-const LINE_ATTRIBUTES: [wgpu::VertexAttribute; 4] =
-    wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32, 3 => Unorm8x4];
-/// Buffer of dots, as the program reads it.
-pub(super) const DOT_LAYOUT: wgpu::VertexBufferLayout<'static> = instances(size_of::<DotInstance>(), &DOT_ATTRIBUTES);
-/// Buffer of lines, as the program reads it.
-pub(super) const LINE_LAYOUT: wgpu::VertexBufferLayout<'static> =
-    instances(size_of::<LineInstance>(), &LINE_ATTRIBUTES);
-
-const fn instances(stride: usize, attributes: &'static [wgpu::VertexAttribute]) -> wgpu::VertexBufferLayout<'static> {
-    wgpu::VertexBufferLayout { array_stride: stride as u64, step_mode: wgpu::VertexStepMode::Instance, attributes }
-}
 
 /// Dots and lines of the picture on the device.
 pub(super) struct Marks {
@@ -64,12 +33,13 @@ impl Marks {
     /// Brings the scene's marks to the device, if they are not there already.
     pub(super) fn upload(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, scene: &ViewScene) {
         if !self.shown_dots.as_ref().is_some_and(|dots| Arc::ptr_eq(dots, &scene.dots)) {
-            let instances: Vec<DotInstance> = scene.dots.iter().map(dot_instance).collect();
+            let instances: Vec<DotInstance> = scene.dots.iter().map(DotInstance::from).collect();
             self.n_dots = instances.len() as u32;
             self.dots.write(device, queue, bytemuck::cast_slice(&instances));
         }
         if !self.shown_lines.as_ref().is_some_and(|lines| Arc::ptr_eq(lines, &scene.lines)) {
-            let of = |on_top: bool| scene.lines.iter().filter(move |line| line.on_top == on_top).map(line_instance);
+            let of =
+                |on_top: bool| scene.lines.iter().filter(move |line| line.on_top == on_top).map(LineInstance::from);
             let instances: Vec<LineInstance> = of(false).chain(of(true)).collect();
             let n_on_top = scene.lines.iter().filter(|line| line.on_top).count() as u32;
             self.n_lines = [instances.len() as u32 - n_on_top, n_on_top];
@@ -103,12 +73,4 @@ fn quads(
         pass.set_vertex_buffer(0, buffer.slice(..));
         pass.draw(0..4, range);
     }
-}
-
-fn dot_instance(dot: &Dot) -> DotInstance {
-    DotInstance { position: dot.position.to_array(), radius: dot.radius_px, color: dot.color }
-}
-
-fn line_instance(line: &Line) -> LineInstance {
-    LineInstance { a: line.a.to_array(), b: line.b.to_array(), width: line.width_px, color: line.color }
 }

@@ -5,6 +5,7 @@
 //! are not to be had everywhere, and so blending happens on encoded colors, as in the rest of the window.
 
 mod colors;
+mod instances;
 mod layouts;
 mod marks;
 mod pipelines;

@@ -1,8 +1,8 @@
 //! The programs with their fixed state: what is blended, what is tested against depth, what comes from which buffer.
 
 use super::super::shaders;
+use super::instances::{DOT_LAYOUT, LINE_LAYOUT};
 use super::layouts::Layouts;
-use super::marks::{DOT_LAYOUT, LINE_LAYOUT};
 use super::targets::{COLOR, DEPTH};
 use wgpu::CompareFunction::{Always, GreaterEqual};
 use wgpu::PrimitiveTopology::{LineList, TriangleList, TriangleStrip};
