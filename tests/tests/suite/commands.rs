@@ -113,6 +113,20 @@ fn every_command_explains_itself_with_an_example() {
 }
 
 #[test]
+fn quiet_is_understood_before_and_after_a_command() {
+    let folder = Folder::new();
+    let mesh = folder.write("bar.obj", bar([4, 2, 2], [2.0, 1.0, 1.0]).obj());
+    let handles = folder.write("handles.json", r#"{"fixed": [0, 1]}"#);
+    let out = folder.path("out.obj");
+    let deform = ["deform", &mesh, "--handles", &handles, "-o", &out];
+    assert_ne!(pliant(deform).expect_done().out, "");
+    for arguments in [[&["--quiet"], &deform[..]].concat(), [&deform[..], &["--quiet"]].concat()] {
+        let outcome = pliant(&arguments).expect_done();
+        assert_eq!((outcome.out.as_str(), outcome.err.as_str()), ("", ""), "{arguments:?}");
+    }
+}
+
+#[test]
 fn quiet_says_nothing_when_all_is_well() {
     let folder = Folder::new();
     let mesh = folder.write("defects.obj", DEFECTS);

@@ -158,6 +158,11 @@ fn two_targets_for_one_vertex_are_refused() {
 }
 
 #[test]
+fn targets_too_far_away_name_their_place() {
+    bad_handles(r#"{"fixed": [0], "moved": [{"vertex": 2, "to": [1e200, 0, 0]}]}"#, &["moved[0].vertex is 2", "1e100"]);
+}
+
+#[test]
 fn a_missing_handles_file_is_named() {
     let mut bench = Bench::new();
     bench.handles = bench.folder.path("nowhere.json");
@@ -195,10 +200,28 @@ fn numbers_out_of_range_are_refused() {
 }
 
 #[test]
+fn raw_cotangents_without_a_minimum_name_the_option_that_helps() {
+    let mut bench = Bench::new();
+    // Two faces that are obtuse at vertices 2 and 3: the weight of their common edge is negative. Held spikes at both of
+    // its ends, so slim that their own weights are small, count it with r = 2 twice as often as the other sides.
+    let mut text = "v 0 0 0\nv 4 0 0\nv 2 0.3 0\nv 2 -0.3 0\nf 1 2 3\nf 2 1 4\n".to_owned();
+    for spike in 0..20 {
+        let (end, first) = (spike % 2, 2 * spike + 5);
+        let (x, z) = (4 * end, spike + 1);
+        text += &format!("v {x} 0.001 {z}\nv {x} -0.001 {z}\nf {} {first} {}\n", end + 1, first + 1);
+    }
+    bench.mesh = bench.folder.write("spikes.obj", text);
+    let held: Vec<String> = (2..44).map(|vertex| vertex.to_string()).collect();
+    bench.handles = bench.folder.write("spikes.json", format!("{{\"fixed\": [{}]}}", held.join(", ")));
+    let words = ["spikes.obj", "--weights clamped"];
+    bench.refuses(&["--weights", "cotangent", "--rigidity", "2"], &words);
+}
+
+#[test]
 fn outputs_that_cannot_be_written_are_refused_before_the_work() {
     let mut bench = Bench::new();
     bench.out = bench.folder.path("out.xyz");
-    bench.refuses(&[], &["out.xyz", "extension", ".obj"]);
+    bench.refuses(&[], &["out.xyz", ".obj"]);
 
     let mut bench = Bench::new();
     bench.out = bench.folder.path("missing/out.obj");
@@ -215,6 +238,15 @@ fn a_report_that_cannot_be_written_leaves_no_output() {
     let bench = Bench::new();
     let report = bench.folder.path("missing/report.json");
     bench.refuses(&["--report", &report], &["report.json"]);
+}
+
+/// A rename would put a plain file in the place of the device, or take the one behind the stream away.
+#[test]
+#[cfg(target_os = "linux")]
+fn devices_and_streams_are_no_place_for_a_file() {
+    for place in ["/dev/null", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"] {
+        Bench::new().refuses(&["--report", place], &[place, "not a regular file"]);
+    }
 }
 
 #[test]

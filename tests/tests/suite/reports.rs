@@ -81,6 +81,18 @@ fn a_report_has_the_documented_keys_in_order() {
 }
 
 #[test]
+#[cfg(unix)]
+fn a_report_behind_a_link_is_written_through_it() {
+    let (folder, shape) = (Folder::new(), small_bar());
+    let mesh = folder.write("bar.obj", shape.obj());
+    let kept = folder.write("kept.json", "old");
+    std::os::unix::fs::symlink(&kept, folder.path("report.json")).expect("a new link");
+    let report = deform(&folder, &mesh, &handles_json(&lift(&shape)), &folder.path("out.obj"), &[]);
+    assert_eq!(read_json(&kept), report);
+    assert!(std::fs::symlink_metadata(folder.path("report.json")).expect("the link").is_symlink());
+}
+
+#[test]
 fn intersections_are_counted_only_when_asked_for() {
     let (folder, shape) = (Folder::new(), small_bar());
     let mesh = folder.write("bar.obj", shape.obj());

@@ -1,0 +1,55 @@
+//! The mesh a command works on: the file and the surface the solver sees, with failures told in the file's numbers.
+
+use std::path::Path;
+
+use pliant_meshfile::{MeshFile, Weld};
+use pliant_solver::{Mesh, MeshError, SolveError};
+
+use super::failure::Failure;
+
+/// Opens the mesh file at `path`.
+pub(super) fn open(path: &Path) -> Result<(MeshFile, Mesh), Failure> {
+    let file = pliant_meshfile::open(path)?;
+    let mesh = Mesh::new(file.points(), file.point_triangles()).map_err(|source| refused(source, path, &file.weld))?;
+    Ok((file, mesh))
+}
+
+fn refused(source: MeshError, path: &Path, weld: &Weld) -> Failure {
+    let source = match source {
+        MeshError::NotFinite { vertex } => MeshError::NotFinite { vertex: weld.vertex_of_point[vertex as usize] },
+        other => other,
+    };
+    Failure::Mesh { path: path.to_owned(), source }
+}
+
+/// What the solver says about the surface points of the mesh at `path`, as a failure about its vertices. What it says
+/// about handles cannot happen: [`super::handles_file`] has checked them.
+pub(super) fn unsolvable(source: SolveError, path: &Path, weld: &Weld) -> Failure {
+    let path = path.to_owned();
+    match source {
+        SolveError::Indefinite { vertex } => {
+            Failure::Indefinite { path, vertex: weld.vertex_of_point[vertex as usize] as usize }
+        }
+        source => Failure::Solve { path, source },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Vertices 0 and 1 are one point, 2 is the second.
+    fn weld() -> Weld {
+        Weld { point_of_vertex: vec![0, 0, 1], vertex_of_point: vec![0, 2] }
+    }
+
+    #[test]
+    fn failures_of_the_surface_name_the_file_and_its_own_vertices() {
+        let path = Path::new("bar.obj");
+        let far = refused(MeshError::NotFinite { vertex: 1 }, path, &weld()).to_string();
+        assert!(far.starts_with("bar.obj: vertex 2 "), "{far}");
+        let indefinite = unsolvable(SolveError::Indefinite { vertex: 1 }, path, &weld()).to_string();
+        assert!(indefinite.starts_with("bar.obj: ") && indefinite.contains("vertex 2)"), "{indefinite}");
+        assert!(indefinite.contains("--weights clamped"), "{indefinite}");
+    }
+}
