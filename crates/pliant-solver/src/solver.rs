@@ -217,7 +217,7 @@ impl Solver {
                 if energy > before && energy - before <= NOISE * noise {
                     energy = before;
                 }
-                if before == 0.0 { 0.0 } else { (before - energy) / before }
+                if before == 0.0 { 0.0 } else { (before - energy) / before.abs() }
             }
             None if energy == 0.0 => 0.0,
             None => 1.0,

@@ -492,6 +492,18 @@ fn save(session: &mut Session, to: &Path) {
 }
 
 #[test]
+fn rigidity_painted_back_to_1_is_1_again_in_the_file() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let to = folder.path().join("bent.obj");
+    let mut session = session_with(sheet(4));
+    session.apply(Command::FillAll(6));
+    save(&mut session, &to);
+    session.apply(Command::FillAll(1));
+    save(&mut session, &to);
+    assert_eq!(Model::open(&to).expect("opens again").rigidity.max(), 1);
+}
+
+#[test]
 fn a_save_that_ends_after_another_mesh_was_opened_does_not_concern_that_mesh() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let mut session = session_with(sheet(20));
