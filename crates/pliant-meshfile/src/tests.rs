@@ -5,5 +5,6 @@ mod conversion;
 mod gltf_reading;
 mod gltf_saving;
 mod mutation;
+mod obj_reading;
 mod obj_saving;
 mod support;

@@ -2,7 +2,7 @@
 //!
 //! Read by a scanner of our own: keeping every byte for saving needs the place of each number in the text, and the
 //! guard in front of the usual parser (continuation, marks, text that is not UTF-8, concave polygons) is larger than a
-//! reader. That parser reads material libraries here, and checks this reader in the tests.
+//! reader. That parser checks this reader in the tests.
 
 mod export;
 mod materials;

@@ -34,6 +34,9 @@ struct Face {
     group: u32,
 }
 
+/// Libraries looked at in one file; real files name one.
+pub(super) const MAX_LIBRARIES: usize = 64;
+
 /// Zero-based indices of vertex, texture coordinate and normal.
 type CornerIndex = (u32, u32, u32);
 
@@ -43,7 +46,11 @@ struct Reader {
     colored: Vec<(usize, [f32; 4])>,
     faces: Vec<Face>,
     corners: Vec<CornerIndex>,
+    /// Groups that have faces.
     groups: Vec<(String, Option<usize>)>,
+    /// Whether the name or the material changed since the last face.
+    starts_group: bool,
+    names: Option<budget::Purse>,
     name: String,
     material: Option<usize>,
     known_materials: HashMap<String, usize>,
@@ -51,8 +58,7 @@ struct Reader {
 }
 
 pub(super) fn parse(bytes: &[u8], name: &str) -> Result<Parsed, Fault> {
-    let mut reader = Reader { name: name.to_owned(), ..Reader::default() };
-    reader.groups.push((name.to_owned(), None));
+    let mut reader = Reader { name: name.to_owned(), starts_group: true, ..Reader::default() };
     for (statement, line) in Statements::new(bytes) {
         reader.statement(statement, line)?;
     }
@@ -66,22 +72,23 @@ impl Reader {
         match keyword.bytes {
             b"v" => self.vertex(statement, line),
             b"vn" => {
-                let [x, y, z] = numbers(words, line, "normal", true)?;
-                self.out.normals.push(Vec3::new(x as f32, y as f32, z as f32));
+                let [x, y, z] = numbers(words, line, "normal", true)?.map(|x| finite(Some(x)));
+                budget::check("normals", self.out.normals.len() as u64 + 1, budget::VERTICES)?;
+                self.out.normals.push(Vec3::new(x, y, z));
                 self.out.normal_at.push(statement.start as u64);
                 Ok(())
             }
             b"vt" => {
                 // One number is a coordinate along a line.
-                let u = words.next().and_then(|w| w.number()).unwrap_or(0.0);
-                let v = words.next().and_then(|w| w.number()).unwrap_or(0.0);
-                self.out.uvs.push(Vec2::new(u as f32, v as f32));
+                let mut next = || finite(words.next().and_then(|w| w.number()));
+                budget::check("texture coordinates", self.out.uvs.len() as u64 + 1, budget::VERTICES)?;
+                self.out.uvs.push(Vec2::new(next(), next()));
                 Ok(())
             }
             b"f" | b"fo" => self.face(words, line),
             b"o" | b"g" => {
-                self.name = statement.rest();
-                self.group();
+                self.name = budget::short_name(statement.rest());
+                self.starts_group = true;
                 Ok(())
             }
             b"usemtl" => {
@@ -92,19 +99,30 @@ impl Reader {
                     self.out.material_names.push(name);
                 }
                 self.material = Some(index);
-                self.group();
+                self.starts_group = true;
                 Ok(())
             }
             b"mtllib" => {
-                self.out.libraries.push(statement.rest());
+                let library = statement.rest();
+                if self.out.libraries.len() < MAX_LIBRARIES && !self.out.libraries.contains(&library) {
+                    self.out.libraries.push(library);
+                }
                 Ok(())
             }
             _ => Ok(()),
         }
     }
 
-    fn group(&mut self) {
-        self.groups.push((self.name.clone(), self.material));
+    /// The group that a face goes into; names without faces make none.
+    fn group(&mut self) -> Result<u32, Fault> {
+        if std::mem::take(&mut self.starts_group) {
+            let goes_on = self.groups.last().is_some_and(|(name, m)| *name == self.name && *m == self.material);
+            if !goes_on {
+                self.names.get_or_insert_with(budget::Purse::of_names).spend(self.name.len())?;
+                self.groups.push((self.name.clone(), self.material));
+            }
+        }
+        Ok(self.groups.len() as u32 - 1)
     }
 
     fn vertex(&mut self, statement: Statement<'_>, line: usize) -> Result<(), Fault> {
@@ -116,8 +134,8 @@ impl Reader {
         let more: Vec<f64> = statement.words().skip(4).take(4).filter_map(|w| w.number()).collect();
         // Four numbers are a weight, which means nothing for polygons; six or more end in a color.
         if let [r, g, b, ..] = more[..] {
-            let alpha = more.get(3).map_or(1.0, |&a| a as f32);
-            self.colored.push((vertex, [r as f32, g as f32, b as f32, alpha]));
+            let alpha = more.get(3).copied().unwrap_or(1.0);
+            self.colored.push((vertex, [r, g, b, alpha].map(|x| finite(Some(x)))));
         }
         self.out.positions.push(Triple::new(x, y, z));
         self.out.vertex_at.push(statement.start as u64);
@@ -137,7 +155,8 @@ impl Reader {
             self.n_thin += 1;
             return Ok(());
         }
-        self.faces.push(Face { first_corner, line, group: self.groups.len() as u32 - 1 });
+        let group = self.group()?;
+        self.faces.push(Face { first_corner, line, group });
         let n_triangles = self.corners.len() - 2 * self.faces.len();
         budget::check("triangles", n_triangles as u64, budget::TRIANGLES)
     }
@@ -145,7 +164,7 @@ impl Reader {
     fn finish(mut self) -> Result<Parsed, Fault> {
         let mut n_loose = 0;
         let faces = std::mem::take(&mut self.faces);
-        let (mut outline, mut cut) = (Vec::new(), Vec::new());
+        let (mut outline, mut cut, mut tests) = (Vec::new(), Vec::new(), polygon::MAX_TESTS);
         let mut group = None;
         for (i, face) in faces.iter().enumerate() {
             let end = faces.get(i + 1).map_or(self.corners.len(), |next| next.first_corner);
@@ -160,7 +179,7 @@ impl Reader {
             outline.clear();
             outline.extend(corners.iter().map(|c| self.out.positions[c.0 as usize]));
             cut.clear();
-            polygon::triangulate(&outline, &mut cut);
+            polygon::triangulate(&outline, &mut tests, &mut cut);
             self.out.has_polygons |= outline.len() > 3;
             for triangle in &cut {
                 let of = triangle.map(|local| corners[local as usize]);
@@ -171,18 +190,19 @@ impl Reader {
                 part.triangles.end = self.out.triangles.len();
             }
         }
+        if tests == 0 {
+            let text = "polygons are too intricate to cut with care: some triangles may be turned over";
+            self.out.warnings.push(Warning(text.into()));
+        }
         self.note(n_loose);
         Ok(self.out)
     }
 
     fn begin_part(&mut self, group: u32) {
-        let (name, material) = &self.groups[group as usize];
+        // Taken: each group is one run of faces.
+        let (name, material) = std::mem::take(&mut self.groups[group as usize]);
         let at = self.out.triangles.len();
-        // Groups often repeat; the same name and material going on is one part.
-        if self.out.parts.last().is_some_and(|last| last.name == *name && last.material == *material) {
-            return;
-        }
-        self.out.parts.push(ShapePart { name: name.clone(), triangles: at..at, material: *material });
+        self.out.parts.push(ShapePart { name, triangles: at..at, material });
     }
 
     fn note(&mut self, n_loose: usize) {
@@ -202,6 +222,11 @@ impl Reader {
             self.out.colors = Some(colors);
         }
     }
+}
+
+/// A number for display, zero where it is none that single precision holds.
+fn finite(number: Option<f64>) -> f32 {
+    number.map(|x| x as f32).filter(|x| x.is_finite()).unwrap_or(0.0)
 }
 
 /// Three finite numbers; a normal that is none counts as zero, since nothing depends on it.

@@ -42,18 +42,30 @@ impl<'a> Iterator for Statements<'a> {
 
 /// The statement that begins at a place.
 pub(super) fn statement_at(bytes: &[u8], start: usize) -> Statement<'_> {
-    let first = bytes[start..].iter().find(|b| !matches!(b, b' ' | b'\t'));
-    // A comment that ends in a backslash does not swallow the line after it.
-    let continues = first != Some(&b'#');
-    let mut end = start;
+    // A comment that ends in a backslash does not swallow the line after it; in a name `#` begins no comment.
+    let (mut end, mut continues, mut holds_name) = (start, true, None);
+    let mut after_blank = true;
     while end < bytes.len() {
-        match bytes[end] {
+        let byte = bytes[end];
+        if byte == b'#' && after_blank {
+            let before = Statement { bytes, start, end };
+            continues &= *holds_name.get_or_insert_with(|| before.holds_name());
+        }
+        after_blank = is_blank(byte);
+        match byte {
             b'\n' | b'\r' => break,
-            b'\\' if continues && line_end(bytes, end + 1) > 0 => end += 1 + line_end(bytes, end + 1),
+            b'\\' if continues && line_end(bytes, end + 1) > 0 => {
+                end += 1 + line_end(bytes, end + 1);
+                after_blank = true;
+            }
             _ => end += 1,
         }
     }
     Statement { bytes, start, end }
+}
+
+fn is_blank(byte: u8) -> bool {
+    matches!(byte, b' ' | b'\t' | b'\0' | 0x0b | 0x0c)
 }
 
 /// Length of the line end at a place, 0 if there is none.
@@ -79,6 +91,12 @@ impl<'a> Statement<'a> {
     /// The words before a comment, each with its range in the text.
     pub(super) fn words(self) -> Words<'a> {
         Words { statement: self, at: self.start }
+    }
+
+    /// Whether everything after its first word is a name.
+    fn holds_name(self) -> bool {
+        let keyword = self.words().next();
+        keyword.is_some_and(|word| matches!(word.bytes, b"o" | b"g" | b"usemtl" | b"mtllib" | b"newmtl"))
     }
 
     /// Everything after the first word, as text, without blanks around it: a name may contain blanks and `#`.
@@ -123,7 +141,7 @@ impl<'a> Iterator for Words<'a> {
         while start < end {
             if continuation(start) {
                 start += 1 + line_end(bytes, start + 1);
-            } else if matches!(bytes[start], b' ' | b'\t' | b'\0' | 0x0b | 0x0c) {
+            } else if is_blank(bytes[start]) {
                 start += 1;
             } else {
                 break;
@@ -134,7 +152,7 @@ impl<'a> Iterator for Words<'a> {
             return None;
         }
         let mut stop = start;
-        while stop < end && !matches!(bytes[stop], b' ' | b'\t' | b'\0' | 0x0b | 0x0c) && !continuation(stop) {
+        while stop < end && !is_blank(bytes[stop]) && !continuation(stop) {
             stop += 1;
         }
         self.at = stop;
@@ -145,6 +163,14 @@ impl<'a> Iterator for Words<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_comment_ends_with_its_line_and_a_name_may_hold_its_mark() {
+        let text = b"v 1 2 3 # up \\\nv 4 5 6\no a # b \\\nc\nv 7#8 \\\n9\n";
+        let got: Vec<(usize, String)> = Statements::new(text).map(|(s, line)| (line, s.rest())).collect();
+        let expected = [(1, "1 2 3 # up \\"), (2, "4 5 6"), (3, "a # b \\\nc"), (5, "7#8 \\\n9")];
+        assert_eq!(got, expected.map(|(line, rest)| (line, rest.to_owned())));
+    }
 
     #[test]
     fn lines_end_and_continue_in_every_way() {
