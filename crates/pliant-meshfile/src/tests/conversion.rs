@@ -1,8 +1,9 @@
 //! From one format to another, and files made from nothing.
 
-use super::support::{OBJ, obj, saved, seam_glb};
+use super::support::{OBJ, glb, obj, saved, seam, seam_glb};
 use crate::{Format, MeshFile, from_bytes};
 use glam::DVec3;
+use serde_json::json;
 
 #[test]
 fn an_obj_becomes_a_glb_with_its_vertices_first_and_in_order() {
@@ -71,4 +72,60 @@ fn a_refused_save_touches_nothing() {
         assert_eq!(std::fs::read(&path).expect("the old file"), b"old");
         assert_eq!(std::fs::read_dir(folder.path()).expect("the folder").count(), 1);
     }
+}
+
+#[test]
+fn a_library_of_another_model_is_not_overwritten() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let library = |name: &str| folder.path().join(name);
+    std::fs::write(library("out.mtl"), "newmtl oak\n").expect("a file");
+    let file = from_bytes(&seam_glb(), Format::Glb, "seam.glb").expect("a mesh");
+    // Saved twice: the second time over the first, into the same library.
+    for name in ["out.obj", "out.obj", "out-2.obj"] {
+        file.save(&library(name), &file.points(), None).expect("saved");
+        let again = crate::open(&library(name)).expect("a mesh");
+        assert_eq!(again.parts[0].base_color, file.parts[0].base_color, "{name}");
+    }
+    assert_eq!(std::fs::read(library("out.mtl")).expect("the old library"), b"newmtl oak\n");
+    let mut names: Vec<_> = std::fs::read_dir(folder.path()).expect("the folder").flatten().collect();
+    names.sort_by_key(|entry| entry.file_name());
+    let names: Vec<_> = names.iter().map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+    assert_eq!(names, ["out-2-2.mtl", "out-2.mtl", "out-2.obj", "out.mtl", "out.obj"]);
+}
+
+#[test]
+fn materials_of_one_name_stay_apart_in_an_obj() {
+    let (mut document, binary) = seam();
+    let material =
+        |name: &str, red: f32| json!({"name": name, "pbrMetallicRoughness": {"baseColorFactor": [red, 0, 0, 1]}});
+    document["materials"] = json!([material("M", 0.0), material("M", 0.25), material("M.2", 0.5), material("M", 1.0)]);
+    let primitive = |m: usize| json!({"attributes": {"POSITION": 0}, "indices": 2, "material": m});
+    document["meshes"][0]["primitives"] = (0..4).map(primitive).collect();
+    let file = from_bytes(&glb(&document, &binary), Format::Glb, "m.glb").expect("a mesh");
+    let (_, again) = saved(&file, "out.obj", &file.points(), None);
+    let red: Vec<f32> = again.parts.iter().map(|part| part.base_color[0]).collect();
+    assert_eq!(red, [0.0, 0.25, 0.5, 1.0]);
+}
+
+#[test]
+fn an_obj_of_a_glb_names_what_is_lost_and_only_that() {
+    let warning = |document: &serde_json::Value, binary: &[u8]| {
+        let file = from_bytes(&glb(document, binary), Format::Glb, "m.glb").expect("a mesh");
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let warnings = file.save(&folder.path().join("out.obj"), &file.points(), None).expect("saved");
+        warnings.iter().map(|w| w.0.split(": ").last().unwrap_or_default().to_owned()).collect::<Vec<_>>().join("; ")
+    };
+    let (mut document, binary) = seam();
+    assert_eq!(warning(&document, &binary), "instances of a mesh beyond its first");
+    document["nodes"][1].as_object_mut().expect("an object").remove("mesh");
+    assert_eq!(warning(&document, &binary), "");
+    let attributes = json!({"POSITION": 0, "TANGENT": 0, "TEXCOORD_0": 0, "TEXCOORD_1": 0});
+    let primitive = &mut document["meshes"][0]["primitives"][0];
+    primitive["attributes"] = attributes;
+    primitive["targets"] = json!([{"POSITION": 0}]);
+    let lines = json!({"attributes": {"POSITION": 0}, "mode": 1});
+    document["meshes"][0]["primitives"].as_array_mut().expect("a list").push(lines);
+    document["animations"] = json!([{}]);
+    let expected = "tangents, further texture coordinates, lines and points, morph targets, animations";
+    assert_eq!(warning(&document, &binary), expected);
 }

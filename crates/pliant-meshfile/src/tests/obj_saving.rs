@@ -52,6 +52,25 @@ fn names_may_be_of_any_encoding() {
 }
 
 #[test]
+fn normals_that_cannot_follow_all_their_vertices_are_told() {
+    // A strip of two quads with one normal for all six corners.
+    let text = "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\nvn 0 0 1\nf 1//1 2//1 5//1 4//1\n\
+                f 2//1 3//1 6//1 5//1\n";
+    let file = obj(text);
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("bent.obj");
+    let mut points = file.points();
+    let turned: Vec<DVec3> = points.iter().map(|p| DVec3::new(p.x, -p.z, p.y)).collect();
+    assert_eq!(file.save(&path, &turned, None).expect("saved"), [], "turned as a whole");
+    for point in [2, 5] {
+        points[point] = DVec3::new(1.0, points[point].y, 1.0);
+    }
+    let warnings = file.save(&path, &points, None).expect("saved");
+    let expected = "shading is approximate where one vn line serves vertices that turn apart (lines: 1)";
+    assert_eq!(warnings.iter().map(|w| w.0.as_str()).collect::<Vec<_>>(), [expected]);
+}
+
+#[test]
 fn rigidity_lives_in_a_sidecar() {
     let file = obj(OBJ);
     let (_, again) = saved(&file, "r.obj", &file.points(), Some(&[1, 2, 3, 4, 1000]));

@@ -127,17 +127,30 @@ fn world_normals(source: &GltfSource, edit: &Edit<'_>) -> Vec<Vec3> {
     normals
 }
 
+/// What the document holds and a shape does not.
 fn left_behind(source: &GltfSource) -> Vec<&'static str> {
+    let list = |key: &str| json::list(&source.document, key).unwrap_or_default();
+    let primitives = || list("meshes").iter().filter_map(|mesh| mesh.get("primitives")?.as_array()).flatten();
+    let has_attribute = |is: fn(&str) -> bool| {
+        let mut attributes = primitives().filter_map(|primitive| primitive.get("attributes")?.as_object());
+        attributes.any(|attributes| attributes.keys().any(|name| is(name)))
+    };
+    let filled = |value: Option<&Value>| value.and_then(Value::as_array).is_some_and(|items| !items.is_empty());
+    let mut uses = HashMap::new();
+    for mesh in list("nodes").iter().filter_map(|node| node.get("mesh")?.as_u64()) {
+        *uses.entry(mesh).or_insert(0) += 1;
+    }
     let kinds = [
-        ("textures", "textures"),
-        ("skins", "skins"),
-        ("animations", "animations"),
-        ("cameras", "cameras"),
-        ("nodes", "the node tree and instances"),
+        ("textures", !list("textures").is_empty()),
+        ("tangents", has_attribute(|name| name == "TANGENT")),
+        ("further texture coordinates", has_attribute(|name| name.starts_with("TEXCOORD_") && name != "TEXCOORD_0")),
+        ("further colors", has_attribute(|name| name.starts_with("COLOR_") && name != "COLOR_0")),
+        ("lines and points", primitives().any(|p| p.get("mode").and_then(Value::as_f64).is_some_and(|m| m < 4.0))),
+        ("morph targets", primitives().any(|primitive| filled(primitive.get("targets")))),
+        ("skins", !list("skins").is_empty()),
+        ("animations", !list("animations").is_empty()),
+        ("cameras", !list("cameras").is_empty()),
+        ("instances of a mesh beyond its first", uses.values().any(|&n| n > 1)),
     ];
-    let held = |key: &str| json::list(&source.document, key).is_ok_and(|items| !items.is_empty());
-    let mut left: Vec<&str> = kinds.iter().filter(|(key, _)| held(key)).map(|(_, words)| *words).collect();
-    let single = json::list(&source.document, "nodes").is_ok_and(|nodes| nodes.len() == 1);
-    left.retain(|words| !(single && *words == "the node tree and instances"));
-    left
+    kinds.into_iter().filter(|&(_, held)| held).map(|(words, _)| words).collect()
 }

@@ -6,6 +6,7 @@ use super::text::statement_at;
 use crate::shape::NONE;
 use crate::{SaveError, Warning, files, normals};
 use glam::Vec3;
+use std::collections::HashMap;
 use std::io::Write;
 use std::path::Path;
 
@@ -17,7 +18,10 @@ pub(super) fn rewrite(source: &ObjSource, edit: &Edit<'_>, to: &Path) -> Result<
             changes.push((at, position.to_array().map(|x| x.to_string())));
         }
     }
-    for (&at, (normal, turned)) in source.normal_at.iter().zip(turned_normals(source, edit)) {
+    let normals = turned_normals(source, edit);
+    let mut warnings = stranded_libraries(source, to);
+    warnings.extend(torn_normals(source, edit, &normals));
+    for (&at, (normal, turned)) in source.normal_at.iter().zip(normals) {
         if turned {
             changes.push((at, normal.to_array().map(|x| x.to_string())));
         }
@@ -33,7 +37,7 @@ pub(super) fn rewrite(source: &ObjSource, edit: &Edit<'_>, to: &Path) -> Result<
         }
     }
     bytes.extend_from_slice(&source.bytes[copied..]);
-    Ok(Output { bytes, beside: Vec::new(), warnings: stranded_libraries(source, to) })
+    Ok(Output { bytes, beside: Vec::new(), warnings })
 }
 
 /// Every normal of the file for the new shape, and whether it changed.
@@ -52,6 +56,43 @@ pub(super) fn turned_normals(source: &ObjSource, edit: &Edit<'_>) -> Vec<(Vec3, 
         None => (normal, false),
     };
     source.normals.iter().zip(turns).map(apply).collect()
+}
+
+/// Normals of one line that turn apart by less look alike.
+const TORN_DEGREES: f32 = 5.0;
+
+/// Says how many `vn` lines serve vertices that would turn them in different directions.
+fn torn_normals(source: &ObjSource, edit: &Edit<'_>, of_line: &[(Vec3, bool)]) -> Option<Warning> {
+    if !of_line.iter().any(|(_, turned)| *turned) {
+        return None;
+    }
+    let triangles = &edit.mesh.triangles;
+    // The normals as they would turn if each vertex had its own.
+    let mut own: HashMap<(u32, u32), u32> = HashMap::new();
+    let mut of_corner = Vec::with_capacity(triangles.len());
+    for (triangle, corners) in triangles.iter().zip(&source.corners) {
+        let mut number = |k: usize| {
+            let next = own.len() as u32;
+            *own.entry((triangle[k], corners[k].1)).or_insert(next)
+        };
+        of_corner.push([number(0), number(1), number(2)]);
+    }
+    let cluster = |t: usize, k: usize| Some(of_corner[t][k]);
+    let turns = normals::turns(triangles, own.len(), cluster, &edit.mesh.positions, &edit.positions);
+    let mut torn: Vec<u32> = Vec::new();
+    for ((_, normal), cluster) in own {
+        let Some(&(shared, _)) = of_line.get(normal as usize) else { continue };
+        let rest = source.normals[normal as usize];
+        let alone = turns[cluster as usize].map_or(rest, |turn| normals::turned(rest, turn));
+        if alone.angle_between(shared) > TORN_DEGREES.to_radians() {
+            torn.push(normal);
+        }
+    }
+    torn.sort_unstable();
+    torn.dedup();
+    let n = torn.len();
+    let text = format!("shading is approximate where one vn line serves vertices that turn apart (lines: {n})");
+    (n > 0).then(|| Warning(text))
 }
 
 fn stranded_libraries(source: &ObjSource, to: &Path) -> Vec<Warning> {
