@@ -20,7 +20,7 @@ pub struct StepReport {
     pub energy: f64,
     /// Iterations since the last [`Solver::start`].
     pub iteration: u64,
-    /// (E before − E after) / E before (3.2.3); 0 when E before = 0. The first iteration after a change of targets, held
+    /// (E before − E after) / |E before| (3.2.3); 0 when E before = 0. The first iteration after a change of targets, held
     /// vertices, rigidity, pose or start has nothing to compare with and reports 1, or 0 when E = 0.
     pub relative_decrease: f64,
 }

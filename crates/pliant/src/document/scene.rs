@@ -126,7 +126,8 @@ impl Scene {
             selection: Selection::default(),
             active: None,
             weights: Weights::default(),
-            loose: LooseComponents::default(),
+            // Eyes and buttons are parts of their own in most files, and nobody wants them left behind.
+            loose: LooseComponents::FollowNearest,
         }
     }
 

@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use glam::DVec3;
 use pliant_geometry::VertexNormals;
-use pliant_solver::{Analysis, Neighborhoods, SolveError, Solver, Start, StepReport, VertexId};
+use pliant_solver::{Analysis, LooseComponents, Neighborhoods, SolveError, Solver, Start, StepReport, VertexId};
 
 use super::{SolveReport, SolveRequest, SolveState};
 use crate::document::{Group, Pose, held_by};
@@ -223,16 +223,15 @@ impl Engine {
     }
 
     fn remarks(&self) -> Vec<String> {
-        let Some(solver) = &self.solver else {
-            return Vec::new();
+        let Some(solver) = &self.solver else { return Vec::new() };
+        let (they, it) = match self.wish.loose {
+            LooseComponents::KeepAtRest => ("stay", "stays"),
+            LooseComponents::FollowNearest => ("follow the nearest", "follows the nearest"),
         };
         match solver.loose_components() {
             [] => Vec::new(),
-            [(n, first)] => vec![format!("a separate part of {n} vertices (first: {}) has no handle", first.0)],
-            parts => {
-                let n: usize = parts.iter().map(|&(n, _)| n).sum();
-                vec![format!("{} separate parts ({n} vertices together) have no handle", parts.len())]
-            }
+            [(n, _)] => vec![format!("a part of {n} vertices has no handle and {it}")],
+            parts => vec![format!("{} parts have no handle and {they}", parts.len())],
         }
     }
 }

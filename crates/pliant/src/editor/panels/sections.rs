@@ -170,11 +170,6 @@ fn name_field(ui: &mut Ui, group: &Group, commands: &mut Vec<Command>) {
 /// Energy curve, weights, loose parts.
 pub(super) fn solver(ui: &mut Ui, session: &mut Session) {
     plot(ui, session);
-    if let Some(report) = &session.status.report {
-        for remark in &report.remarks {
-            ui.label(RichText::new(remark).color(theme::ACCENT));
-        }
-    }
     let Some(document) = session.document() else {
         return;
     };

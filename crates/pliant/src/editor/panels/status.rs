@@ -31,6 +31,12 @@ pub(in crate::editor) fn status(ui: &mut Ui, session: &mut Session, is_software:
                 ui.label(RichText::new(rate).color(quiet).monospace());
             }
         }
+        for remark in session.status.report.iter().flat_map(|report| &report.remarks) {
+            ui.separator();
+            ui.label(RichText::new(remark).color(theme::ACCENT)).on_hover_text(
+                "Separate parts of the mesh: choose in the inspector (Solver) whether they stay or follow",
+            );
+        }
         if is_software {
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 ui.label(RichText::new("software rendering").color(theme::ACCENT).small())
