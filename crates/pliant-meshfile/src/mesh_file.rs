@@ -155,15 +155,7 @@ impl MeshFile {
 
     /// r per surface point, the largest among welded vertices, and whether some of them disagreed.
     pub fn point_rigidity(&self) -> Option<(Vec<u16>, bool)> {
-        let rigidity = self.rigidity.as_ref()?;
-        let mut of_point = vec![0; self.weld.n_points()];
-        let mut disagree = false;
-        for (&point, &r) in self.weld.point_of_vertex.iter().zip(rigidity) {
-            let known: &mut u16 = &mut of_point[point as usize];
-            disagree |= *known != 0 && *known != r;
-            *known = r.max(*known);
-        }
-        Some((of_point, disagree))
+        self.rigidity.as_ref().map(|rigidity| self.weld.largest(rigidity))
     }
 
     /// Writes this file with new world positions and r of its surface points, everything else as it was opened.

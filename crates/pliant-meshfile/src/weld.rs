@@ -22,6 +22,19 @@ impl Weld {
         self.vertex_of_point.len()
     }
 
+    /// The largest of `per_vertex` at each surface point, and whether vertices of one point disagree.
+    ///
+    /// Takes one value per file vertex, and gives one per surface point.
+    pub fn largest(&self, per_vertex: &[u16]) -> (Vec<u16>, bool) {
+        let mut per_point = vec![0; self.n_points()];
+        for (&point, &value) in self.point_of_vertex.iter().zip(per_vertex) {
+            let largest: &mut u16 = &mut per_point[point as usize];
+            *largest = value.max(*largest);
+        }
+        let disagree = self.point_of_vertex.iter().zip(per_vertex).any(|(&point, &v)| per_point[point as usize] != v);
+        (per_point, disagree)
+    }
+
     /// Welds finite positions that are equal as numbers (so -0.0 and 0.0 are one place).
     pub(crate) fn exact(positions: &[DVec3]) -> Weld {
         let mut weld = Weld { point_of_vertex: Vec::with_capacity(positions.len()), vertex_of_point: Vec::new() };
@@ -53,5 +66,12 @@ mod tests {
         let weld = Weld::exact(&positions);
         assert_eq!(weld.point_of_vertex, [0, 1, 0, 1, 2]);
         assert_eq!(weld.vertex_of_point, [0, 1, 4]);
+    }
+
+    #[test]
+    fn of_vertices_that_disagree_the_largest_counts() {
+        let weld = Weld::exact(&[DVec3::ZERO, DVec3::X, DVec3::ZERO]);
+        assert_eq!(weld.largest(&[1, 2, 3]), (vec![3, 2], true));
+        assert_eq!(weld.largest(&[3, 2, 3]), (vec![3, 2], false));
     }
 }

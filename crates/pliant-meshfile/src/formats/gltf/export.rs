@@ -3,6 +3,7 @@
 //! One mesh, one list of vertices for all its primitives: the mesh's own vertices first and in their order, so that
 //! numbers given for them still hold, then the copies that corners with other attributes need.
 
+use super::builder::Builder;
 use super::container;
 use super::relocate::data_uri;
 use crate::formats::{Format, Output};
@@ -138,60 +139,4 @@ fn attributes(shape: &Shape, vertices: &Vertices, builder: &mut Builder, to: &Pa
         attributes["_RIGIDITY"] = builder.rigidity(&r).into();
     }
     Ok(attributes)
-}
-
-/// Collects accessors and their data.
-#[derive(Default)]
-struct Builder {
-    accessors: Vec<Value>,
-    views: Vec<Value>,
-    data: Vec<u8>,
-}
-
-impl Builder {
-    fn push(&mut self, bytes: &[u8], target: u32, stride: Option<u32>, mut accessor: Value) -> usize {
-        self.data.resize(self.data.len().next_multiple_of(4), 0);
-        let mut view = json!({"buffer": 0, "byteOffset": self.data.len(), "byteLength": bytes.len()});
-        if let Some(stride) = stride {
-            view["byteStride"] = stride.into();
-        }
-        view["target"] = target.into();
-        accessor["bufferView"] = self.views.len().into();
-        self.views.push(view);
-        self.data.extend_from_slice(bytes);
-        self.accessors.push(accessor);
-        self.accessors.len() - 1
-    }
-
-    fn floats(&mut self, numbers: &[f32], width: usize, bounds: bool) -> usize {
-        let kind = ["SCALAR", "VEC2", "VEC3", "VEC4"][width - 1];
-        let mut accessor = json!({"componentType": 5126, "count": numbers.len() / width, "type": kind});
-        if bounds {
-            let of = |pick: fn(f32, f32) -> f32| -> Vec<f64> {
-                let column = |k: usize| numbers.iter().skip(k).step_by(width).copied().reduce(pick);
-                (0..width).map(|k| f64::from(column(k).unwrap_or(0.0))).collect()
-            };
-            accessor["min"] = of(f32::min).into();
-            accessor["max"] = of(f32::max).into();
-        }
-        let bytes: Vec<u8> = numbers.iter().flat_map(|x| x.to_le_bytes()).collect();
-        self.push(&bytes, 34962, None, accessor)
-    }
-
-    /// Sixteen-bit numbers four bytes apart: vertex attributes begin at multiples of four.
-    fn rigidity(&mut self, r: &[u16]) -> usize {
-        let bytes: Vec<u8> = r.iter().flat_map(|r| u32::from(*r).to_le_bytes()).collect();
-        self.push(&bytes, 34962, Some(4), json!({"componentType": 5123, "count": r.len(), "type": "SCALAR"}))
-    }
-
-    /// Indices in the shortest type that spares the largest number, which means 'restart'.
-    fn indices(&mut self, indices: &[u32]) -> usize {
-        let short = indices.iter().all(|&index| index < u32::from(u16::MAX));
-        let (kind, bytes): (u32, Vec<u8>) = if short {
-            (5123, indices.iter().flat_map(|&i| (i as u16).to_le_bytes()).collect())
-        } else {
-            (5125, indices.iter().flat_map(|i| i.to_le_bytes()).collect())
-        };
-        self.push(&bytes, 34963, None, json!({"componentType": kind, "count": indices.len(), "type": "SCALAR"}))
-    }
 }

@@ -7,6 +7,7 @@
 mod access;
 mod base64;
 mod buffers;
+mod builder;
 mod container;
 mod export;
 mod json;

@@ -1,12 +1,13 @@
 //! The same glTF document with new positions, normals, tangents and rigidity appended, and nothing else touched.
 
 use super::access::Data;
-use super::relocate::{data_uri, relocate};
+use super::builder::Builder;
+use super::relocate::relocate;
 use super::{Block, GltfSource, Primitive, container, shape};
 use crate::formats::{Edit, Format, Output};
 use crate::{SaveError, Warning};
 use glam::{DQuat, DVec3};
-use serde_json::{Value, json};
+use serde_json::Value;
 use std::collections::HashMap;
 use std::path::Path;
 
@@ -14,7 +15,7 @@ use std::path::Path;
 pub(super) fn rewrite(source: &GltfSource, edit: &Edit<'_>, to: &Path, format: Format) -> Result<Output, SaveError> {
     let glb = format == Format::Glb;
     let mut place = relocate(source, to, glb);
-    let mut added = Added::new(&place.document, glb, place.chunk.as_deref());
+    let mut added = Builder::after(&place.document, glb, place.chunk.as_deref());
     let mut replaced = Vec::new();
     let turns =
         edit.positions.iter().enumerate().any(|(v, _)| edit.moved(v)).then(|| shape::vertex_turns(source, edit));
@@ -99,7 +100,7 @@ impl Writer<'_> {
     }
 
     /// A new accessor for an attribute, or `None` when nothing in it changed.
-    fn append(&self, primitive: &Primitive, attribute: &str, added: &mut Added) -> Option<usize> {
+    fn append(&self, primitive: &Primitive, attribute: &str, added: &mut Builder) -> Option<usize> {
         let block = &self.source.blocks[primitive.block];
         match attribute {
             "POSITION" => self.positions(block, added),
@@ -109,7 +110,7 @@ impl Writer<'_> {
         }
     }
 
-    fn positions(&self, block: &Block, added: &mut Added) -> Option<usize> {
+    fn positions(&self, block: &Block, added: &mut Builder) -> Option<usize> {
         if !block.vertices.clone().any(|vertex| self.edit.moved(vertex)) {
             return None;
         }
@@ -127,7 +128,7 @@ impl Writer<'_> {
         Some(added.floats(&numbers, 3, true))
     }
 
-    fn directions(&self, block: &Block, accessor: Option<usize>, width: usize, added: &mut Added) -> Option<usize> {
+    fn directions(&self, block: &Block, accessor: Option<usize>, width: usize, added: &mut Builder) -> Option<usize> {
         let turns = &self.turns?[block.vertices.clone()];
         if turns.iter().all(Option::is_none) {
             return None;
@@ -147,112 +148,5 @@ impl Writer<'_> {
             }
         }
         Some(added.floats(&numbers, width, false))
-    }
-}
-
-/// Accessors, views and data to be appended to a document.
-struct Added {
-    n_accessors: usize,
-    n_views: usize,
-    buffer: usize,
-    /// Length of what is in the buffer already.
-    start: usize,
-    accessors: Vec<Value>,
-    views: Vec<Value>,
-    data: Vec<u8>,
-}
-
-impl Added {
-    fn new(document: &Value, glb: bool, chunk: Option<&[u8]>) -> Added {
-        let n = |key: &str| document.get(key).and_then(Value::as_array).map_or(0, Vec::len);
-        // A GLB file has one buffer of its own; in glTF new data is a new buffer inside the document.
-        let (buffer, start) = if glb { (0, chunk.map_or(0, <[u8]>::len)) } else { (n("buffers"), 0) };
-        Added {
-            n_accessors: n("accessors"),
-            n_views: n("bufferViews"),
-            buffer,
-            start: start.next_multiple_of(4),
-            accessors: Vec::new(),
-            views: Vec::new(),
-            data: Vec::new(),
-        }
-    }
-
-    fn view(&mut self, bytes: &[u8], stride: Option<usize>) -> usize {
-        let mut view = json!({
-            "buffer": self.buffer,
-            "byteOffset": self.start + self.data.len(),
-            "byteLength": bytes.len(),
-        });
-        if let Some(stride) = stride {
-            view["byteStride"] = stride.into();
-        }
-        // Vertex attributes.
-        view["target"] = 34962.into();
-        self.views.push(view);
-        self.data.extend_from_slice(bytes);
-        self.n_views + self.views.len() - 1
-    }
-
-    fn push(&mut self, accessor: Value) -> usize {
-        self.accessors.push(accessor);
-        self.n_accessors + self.accessors.len() - 1
-    }
-
-    fn floats(&mut self, numbers: &[f32], width: usize, bounds: bool) -> usize {
-        let bytes: Vec<u8> = numbers.iter().flat_map(|x| x.to_le_bytes()).collect();
-        let view = self.view(&bytes, None);
-        let kind = if width == 3 { "VEC3" } else { "VEC4" };
-        let count = numbers.len() / width;
-        let mut accessor = json!({"bufferView": view, "componentType": 5126, "count": count, "type": kind});
-        if bounds {
-            let of = |pick: fn(f32, f32) -> f32| -> Vec<f64> {
-                let column = |k: usize| numbers.iter().skip(k).step_by(width).copied().reduce(pick);
-                (0..width).map(|k| f64::from(column(k).unwrap_or(0.0))).collect()
-            };
-            accessor["min"] = of(f32::min).into();
-            accessor["max"] = of(f32::max).into();
-        }
-        self.push(accessor)
-    }
-
-    /// Sixteen-bit numbers four bytes apart: vertex attributes begin at multiples of four.
-    fn rigidity(&mut self, r: &[u16]) -> usize {
-        let bytes: Vec<u8> = r.iter().flat_map(|r| u32::from(*r).to_le_bytes()).collect();
-        let view = self.view(&bytes, Some(4));
-        self.push(json!({"bufferView": view, "componentType": 5123, "count": r.len(), "type": "SCALAR"}))
-    }
-
-    fn attach(self, document: &mut Value, chunk: &mut Option<Vec<u8>>) {
-        if self.data.is_empty() {
-            return;
-        }
-        extend(document, "accessors", self.accessors);
-        extend(document, "bufferViews", self.views);
-        match chunk {
-            Some(chunk) => {
-                chunk.resize(self.start, 0);
-                chunk.extend_from_slice(&self.data);
-                let length = Value::from(chunk.len());
-                match document.pointer_mut("/buffers/0").and_then(Value::as_object_mut) {
-                    Some(buffer) => {
-                        buffer.insert("byteLength".into(), length);
-                    }
-                    None => extend(document, "buffers", vec![json!({"byteLength": length})]),
-                }
-            }
-            None => {
-                let uri = data_uri("application/octet-stream", &self.data);
-                extend(document, "buffers", vec![json!({"byteLength": self.data.len(), "uri": uri})]);
-            }
-        }
-    }
-}
-
-/// Appends to a list of the document, which appears if it was not there.
-fn extend(document: &mut Value, key: &str, items: Vec<Value>) {
-    match document.get_mut(key).and_then(Value::as_array_mut) {
-        Some(list) => list.extend(items),
-        None => document[key] = items.into(),
     }
 }

@@ -92,7 +92,7 @@ fn torn_normals(source: &ObjSource, edit: &Edit<'_>, of_line: &[(Vec3, bool)]) -
     torn.dedup();
     let n = torn.len();
     let text = format!("shading is approximate where one vn line serves vertices that turn apart (lines: {n})");
-    (n > 0).then(|| Warning(text))
+    (n > 0).then_some(Warning(text))
 }
 
 fn stranded_libraries(source: &ObjSource, to: &Path) -> Vec<Warning> {
