@@ -14,9 +14,15 @@ pub(crate) enum Failure {
     #[error("{n} of the files in assets/ are not what `cargo xtask assets` makes (first: {first}); run it and commit what changed", n = .0.len(), first = .0[0])]
     Stale(Vec<String>),
     #[error(
-        "no Vulkan driver found: the image tests need one, a software one will do; install {0}, then run this again"
+        "no Vulkan driver found: the image tests need one, a software one will do; install \
+         `vulkan-loader mesa-vulkan-drivers` (Fedora) or `vulkan-icd-loader vulkan-swrast` (Arch), then run this again"
     )]
-    NoVulkan(&'static str),
+    NoVulkan,
+    #[error(
+        "no Vulkan driver found, and one could not be installed: the image tests need one, a software one will do; \
+         as root run `apt-get install {0}`, then this again"
+    )]
+    NotInstalled(String),
     #[error("{variable} names Vulkan drivers that are not there: {files}; unset or correct it")]
     NoNamedDriver { variable: &'static str, files: String },
     #[error("some tests failed")]

@@ -18,18 +18,14 @@ pub(crate) fn ensure() -> Result<(), Failure> {
         // Elsewhere wgpu draws with what the system brings: Direct3D or Metal.
         return Ok(());
     }
-    let missing = Failure::NoVulkan(
-        "`libvulkan1 mesa-vulkan-drivers` (Debian, Ubuntu), `vulkan-loader mesa-vulkan-drivers` (Fedora) or \
-         `vulkan-icd-loader vulkan-swrast` (Arch)",
-    );
     if !Path::new("/etc/debian_version").exists() {
-        return Err(missing);
+        return Err(Failure::NoVulkan);
     }
     eprintln!("No Vulkan driver found: installing Mesa's ({}).", PACKAGES.join(" "));
     // Old package lists name versions that are gone; without a network the installation may still work from a cache.
-    let _ = apt_get(&["update"])?;
-    let installed = apt_get(&[&["install", "--yes", "--no-install-recommends"][..], &PACKAGES].concat())?;
-    if installed && is_present() { Ok(()) } else { Err(missing) }
+    let _ = apt_get(&["update"]);
+    let installed = apt_get(&[&["install", "--yes", "--no-install-recommends"][..], &PACKAGES].concat());
+    if installed && is_present() { Ok(()) } else { Err(Failure::NotInstalled(PACKAGES.join(" "))) }
 }
 
 /// If the environment names drivers, the loader looks nowhere else: then one of the files must be there.
@@ -40,16 +36,18 @@ fn driver_named_by_environment() -> Option<Result<(), Failure>> {
     Some(if found { Ok(()) } else { Err(Failure::NoNamedDriver { variable, files }) })
 }
 
-/// Runs apt-get, through sudo unless this is root; whether it succeeded.
-fn apt_get(arguments: &[&str]) -> Result<bool, Failure> {
+/// Runs apt-get, through sudo unless this is root; whether it succeeded. It may not even start: not everybody has sudo.
+fn apt_get(arguments: &[&str]) -> bool {
     let mut command = if is_root() { Command::new("apt-get") } else { Command::new("sudo") };
     if !is_root() {
         // Asks for no password: in a script nobody could answer.
         command.args(["--non-interactive", "apt-get"]);
     }
-    let status = command.args(arguments).env("DEBIAN_FRONTEND", "noninteractive").status();
-    let program = command.get_program().to_string_lossy().into_owned();
-    status.map(|s| s.success()).map_err(|source| Failure::Start { program, source })
+    succeeds(command.args(arguments).env("DEBIAN_FRONTEND", "noninteractive"))
+}
+
+fn succeeds(command: &mut Command) -> bool {
+    command.status().is_ok_and(|status| status.success())
 }
 
 /// Effective user id 0, as the kernel tells.
@@ -80,4 +78,20 @@ fn has_driver() -> bool {
         entries.map(|e| e.path()).any(|path| path.extension().is_some_and(|e| e == "json"))
     };
     folders.iter().any(has_json)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_program_that_cannot_be_started_has_not_succeeded() {
+        assert!(!succeeds(&mut Command::new("/nowhere/sudo")));
+    }
+
+    #[test]
+    fn an_installation_that_failed_names_the_command_to_run_by_hand() {
+        let said = Failure::NotInstalled(PACKAGES.join(" ")).to_string();
+        assert!(said.contains("apt-get install libvulkan1 mesa-vulkan-drivers"), "{said}");
+    }
 }
