@@ -15,6 +15,8 @@ pub(crate) const TEXT_BYTES: u64 = 256 << 20;
 pub(crate) const VERTICES: u64 = 20_000_000;
 /// Triangles of one model.
 pub(crate) const TRIANGLES: u64 = 40_000_000;
+/// Texture coordinates or normals of an OBJ file, elements of a glTF accessor: some writers give every corner its own.
+pub(crate) const CORNERS: u64 = 3 * TRIANGLES;
 /// Elements read from the accessors of one model: each triangle and vertex a few times over, since accessors may be
 /// shared and a file can name one of them any number of times.
 pub(crate) const ELEMENTS: u64 = 8 * TRIANGLES;

@@ -90,11 +90,15 @@ pub(crate) fn same_folder(a: &Path, b: &Path) -> bool {
 /// Writes files so that each is the old one or the new one, never part of one, whenever the program is stopped.
 ///
 /// All are first written in full as temporaries beside their targets and brought to the disk, then renamed in order:
-/// list the main file last. When a step before the renaming fails, nothing is left or touched.
+/// list the main file last. When a step before the renaming fails, nothing is left or touched. A link is saved through
+/// for the main file, which a person chose; links in place of the files beside it are replaced, wherever they lead.
 pub(crate) fn write_all(files: &[(PathBuf, Vec<u8>)]) -> Result<(), SaveError> {
     let mut staged = Vec::new();
-    for (path, bytes) in files {
-        staged.push(Staged::new(path, bytes).map_err(|source| SaveError::Write { path: path.clone(), source })?);
+    for (i, (path, bytes)) in files.iter().enumerate() {
+        let is_main = i + 1 == files.len();
+        let target = if is_main { path.canonicalize().ok() } else { None };
+        let target = target.unwrap_or_else(|| path.clone());
+        staged.push(Staged::new(target, bytes).map_err(|source| SaveError::Write { path: path.clone(), source })?);
     }
     for file in &mut staged {
         file.publish().map_err(|source| SaveError::Write { path: file.target.clone(), source })?;
@@ -110,10 +114,9 @@ struct Staged {
 }
 
 impl Staged {
-    fn new(path: &Path, bytes: &[u8]) -> std::io::Result<Staged> {
-        // A link is saved through, not replaced.
-        let target = path.canonicalize().unwrap_or_else(|_| path.to_owned());
-        let permissions = match fs::metadata(&target) {
+    fn new(target: PathBuf, bytes: &[u8]) -> std::io::Result<Staged> {
+        let permissions = match fs::symlink_metadata(&target) {
+            Ok(old) if old.is_symlink() => None,
             Ok(old) if !old.is_file() => return Err(std::io::Error::other("the target is not a regular file")),
             Ok(old) if old.permissions().readonly() => {
                 return Err(std::io::Error::new(std::io::ErrorKind::PermissionDenied, "the file is read-only"));

@@ -112,11 +112,30 @@ fn a_sidecar_that_leads_out_of_the_folder_is_not_followed() {
     let outer = tempfile::tempdir().expect("a temporary folder");
     let folder = outer.path().join("model");
     std::fs::create_dir(&folder).expect("a folder");
-    std::fs::write(outer.path().join("secret"), "[1,1,1,1,1]").expect("a file");
+    let secret = "[1, 1, 1, 1, 1]";
+    std::fs::write(outer.path().join("secret"), secret).expect("a file");
     std::fs::write(folder.join("m.obj"), OBJ).expect("a file");
     std::os::unix::fs::symlink(outer.path().join("secret"), folder.join("m.rigidity.json")).expect("a link");
     let error = crate::open(&folder.join("m.obj")).expect_err("a link out").to_string();
     assert!(error.contains("cannot be read: outside the folder"), "{error}");
+    let file = obj(OBJ);
+    file.save(&folder.join("m.obj"), &file.points(), None).expect("saved");
+    let kept = std::fs::read_to_string(outer.path().join("secret")).expect("the file outside");
+    assert_eq!(kept, secret, "nor is it written through");
+    crate::open(&folder.join("m.obj")).expect("the link is replaced");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_mesh_is_saved_through_a_link() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let (link, real) = (folder.path().join("link.obj"), folder.path().join("real.obj"));
+    std::fs::write(&real, OBJ).expect("a file");
+    std::os::unix::fs::symlink(&real, &link).expect("a link");
+    let file = crate::open(&link).expect("a mesh");
+    file.save(&link, &bent(&file.points()), None).expect("saved");
+    assert!(link.is_symlink());
+    assert_eq!(crate::open(&real).expect("a mesh").points(), bent(&file.points()));
 }
 
 #[test]

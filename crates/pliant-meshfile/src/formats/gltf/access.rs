@@ -99,7 +99,7 @@ impl<'a> Data<'a> {
             _ => return Err(Fault::at(place, "its type is not SCALAR, VEC2, VEC3 or VEC4")),
         };
         let count = json::number(accessor, "count", &place)?.unwrap_or(0);
-        budget::check("elements in an accessor", count, 3 * budget::TRIANGLES)?;
+        budget::check("elements in an accessor", count, budget::CORNERS)?;
         let size = component.size() * width;
         let offset = json::number(accessor, "byteOffset", &place)?.unwrap_or(0);
         let dense = match accessor.get("bufferView") {

@@ -73,7 +73,7 @@ impl Reader {
             b"v" => self.vertex(statement, line),
             b"vn" => {
                 let [x, y, z] = numbers(words, line, "normal", true)?.map(|x| finite(Some(x)));
-                budget::check("normals", self.out.normals.len() as u64 + 1, budget::VERTICES)?;
+                budget::check("normals", self.out.normals.len() as u64 + 1, budget::CORNERS)?;
                 self.out.normals.push(Vec3::new(x, y, z));
                 self.out.normal_at.push(statement.start as u64);
                 Ok(())
@@ -81,7 +81,7 @@ impl Reader {
             b"vt" => {
                 // One number is a coordinate along a line.
                 let mut next = || finite(words.next().and_then(|w| w.number()));
-                budget::check("texture coordinates", self.out.uvs.len() as u64 + 1, budget::VERTICES)?;
+                budget::check("texture coordinates", self.out.uvs.len() as u64 + 1, budget::CORNERS)?;
                 self.out.uvs.push(Vec2::new(next(), next()));
                 Ok(())
             }
