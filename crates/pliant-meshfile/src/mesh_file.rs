@@ -167,13 +167,13 @@ impl MeshFile {
         let format = Format::of(to).ok_or_else(|| SaveError::UnknownFormat { path: to.to_owned() })?;
         let edit = self.edit(to, points, rigidity)?;
         let entry = format.entry();
-        let output = match self.source.rewrite(&edit, to, format) {
+        let mut output = match self.source.rewrite(&edit, to, format) {
             Some(output) => output?,
             None => self.convert(&edit, to, format)?,
         };
         let mut all = output.beside;
         if entry.rigidity_in_sidecar {
-            all.extend(self.sidecar(&edit, to));
+            all.extend(self.sidecar(&edit, to, &mut output.warnings));
         }
         all.push((to.to_owned(), output.bytes));
         files::write_all(&all)?;
@@ -181,16 +181,22 @@ impl MeshFile {
     }
 
     /// The sidecar that belongs beside `to`, if any does.
-    fn sidecar(&self, edit: &Edit<'_>, to: &Path) -> Option<(PathBuf, Vec<u8>)> {
+    fn sidecar(&self, edit: &Edit<'_>, to: &Path, warnings: &mut Vec<Warning>) -> Option<(PathBuf, Vec<u8>)> {
         let sidecar = rigidity::sidecar_of(to);
         // What was read from one sidecar goes on in the next.
-        let json = match edit.rigidity.as_ref().or(self.rigidity.as_ref()) {
-            Some(rigidity) => rigidity::to_json(rigidity),
-            // One that another model left would be read as this one's.
-            None if files::is_taken(&sidecar) => rigidity::to_json(&vec![1; self.positions.len()]),
-            None => return None,
-        };
-        Some((sidecar, json))
+        if let Some(rigidity) = edit.rigidity.as_ref().or(self.rigidity.as_ref()) {
+            return Some((sidecar, rigidity::to_json(rigidity)));
+        }
+        // One that another model left would be read as this one's.
+        let ones = rigidity::to_json(&vec![1; self.positions.len()]);
+        let is_stale = files::is_taken(&sidecar)
+            && files::read_inside(files::folder_of(&sidecar), &sidecar, budget::TEXT_BYTES).as_ref() != Ok(&ones);
+        if !is_stale {
+            return None;
+        }
+        let text = format!("{} was another model's and now holds rigidity 1 everywhere", sidecar.display());
+        warnings.push(Warning(text));
+        Some((sidecar, ones))
     }
 
     fn convert(&self, edit: &Edit<'_>, to: &Path, format: Format) -> Result<Output, SaveError> {

@@ -84,7 +84,9 @@ fn a_sidecar_of_another_model_is_not_taken_over() {
     for stale in ["[9,9,9,9,9]", "[9]", "broken"] {
         std::fs::write(folder.path().join("out.rigidity.json"), stale).expect("a file");
         let file = obj(OBJ);
-        file.save(&path, &file.points(), None).expect("saved");
+        let said = |warnings: Vec<crate::Warning>| warnings.iter().any(|w| w.0.contains("was another model's"));
+        assert!(said(file.save(&path, &file.points(), None).expect("saved")), "{stale}");
+        assert!(!said(file.save(&path, &file.points(), None).expect("saved")), "{stale}: said once");
         let again = crate::open(&path).unwrap_or_else(|error| panic!("{stale}: {error}"));
         assert_eq!(again.rigidity.as_deref(), Some(&[1; 5][..]), "{stale}");
     }
