@@ -1,61 +1,17 @@
 //! The editor without its window: what is open, which tool is in hand, what the solver said. Everything the window
 //! does goes through here, and so can a test.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
-use glam::{DAffine3, Vec2, Vec3};
-use pliant_geometry::VertexNormals;
+use glam::{DAffine3, Vec2};
 use pliant_solver::{Rigidity, VertexId};
 
 use super::jobs::{Jobs, Opened};
-use super::{ColorBy, Job, JobEvent, Look, NoticeKind, Notices, Sample};
+use super::{ColorBy, Job, JobEvent, Look, NoticeKind, Notices, Open, Sample, Status, Welcome};
 use crate::document::{Command, Document, GroupKind, Model, SelectMode, Snapshot};
-use crate::solving::{SolveReport, SolveRequest, SolveState, Worker};
-use crate::tools::{Context, Input, Marks, Options, Surface, Tool, ToolKind, View};
-use crate::viewport::{Camera, SurfaceFrame};
-
-/// A document with what the window needs to show and pick it.
-pub struct Open {
-    /// The truth.
-    pub document: Document,
-    /// The surface as it is on screen.
-    pub surface: Surface,
-    /// The eye.
-    pub camera: Camera,
-    /// Where it is written by *save*, once that is known.
-    pub save_path: Option<PathBuf>,
-    normals: VertexNormals,
-    shown_epoch: u64,
-}
-
-/// What the solver last said, and how often it speaks.
-#[derive(Clone, Default)]
-pub struct Status {
-    /// The newest report that belongs to the open document.
-    pub report: Option<SolveReport>,
-    /// Surfaces a second while iterating.
-    pub surfaces_per_second: f64,
-    last_surface: Option<std::time::Instant>,
-}
-
-/// What a newcomer has already done with the start sample.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Welcome {
-    /// Has moved a handle.
-    pub pulled: bool,
-    /// Has changed r.
-    pub painted: bool,
-    /// Has taken something back.
-    pub undone: bool,
-}
-
-impl Welcome {
-    /// Whether nothing is left to hint at.
-    pub fn all_done(self) -> bool {
-        self.pulled && self.painted && self.undone
-    }
-}
+use crate::solving::{SolveReport, SolveRequest, Worker};
+use crate::tools::{Context, Input, Marks, Options, Tool, ToolKind, View};
 
 /// Everything behind the window.
 pub struct Session {
@@ -77,8 +33,6 @@ pub struct Session {
     welcome: Option<Welcome>,
     /// Revision of the document when a job was started that will replace it.
     revision_at_open: u64,
-    /// Why the solver last gave up: said once, not with each new try.
-    last_failure: Option<String>,
 }
 
 impl Session {
@@ -100,7 +54,6 @@ impl Session {
             sent: None,
             welcome: None,
             revision_at_open: 0,
-            last_failure: None,
         })
     }
 
@@ -139,20 +92,14 @@ impl Session {
 
     /// Shows a model that is already in memory.
     pub fn show(&mut self, opened: Opened, sample: Option<Sample>) {
-        let Opened { model, surface, normals } = opened;
-        for warning in &model.warnings {
+        for warning in &opened.model.warnings {
             self.notices.push(NoticeKind::Warning, warning.clone());
-        }
-        let camera = Camera::framing(model.bounds.0, model.bounds.1);
-        let mut document = Document::new(model);
-        if let Some(sample) = sample {
-            sample.prepare(&mut document);
         }
         self.tool = self.tool_kind.new_tool();
         self.status = Status::default();
         self.sent = None;
         self.welcome = (sample == Some(Sample::Creature)).then(Welcome::default);
-        self.open = Some(Open { document, surface, camera, save_path: None, normals, shown_epoch: 0 });
+        self.open = Some(Open::new(opened, sample));
         self.synchronize();
     }
 
@@ -215,23 +162,10 @@ impl Session {
         }
         if let Some(frame) = &report.frame {
             open.surface.set_frame(frame.clone());
-            self.status.count_surface();
         }
-        match &report.state {
-            SolveState::Failed(why) if self.last_failure.as_ref() != Some(why) => {
-                self.notices.push(NoticeKind::Error, format!("Cannot solve: {why}"));
-                self.last_failure = Some(why.clone());
-            }
-            SolveState::Failed(_) | SolveState::Preparing => {}
-            SolveState::Resting | SolveState::Iterating | SolveState::Settled => self.last_failure = None,
+        if let Some(why) = self.status.take(report) {
+            self.notices.push(NoticeKind::Error, format!("Cannot solve: {why}"));
         }
-        // Numbers and colors stay while the solver prepares.
-        self.status.report = Some(match self.status.report.take() {
-            Some(last) if report.state == SolveState::Preparing => {
-                SolveReport { state: report.state, revision: report.revision, epoch: report.epoch, ..last }
-            }
-            _ => report,
-        });
     }
 
     /// Hints for a newcomer, while they are wanted.
@@ -283,10 +217,7 @@ impl Session {
     /// Sends the newest wish to the solver and shows a pose that jumped.
     fn synchronize(&mut self) {
         let Some(open) = &mut self.open else { return };
-        if open.document.epoch() != open.shown_epoch {
-            open.shown_epoch = open.document.epoch();
-            open.show_pose();
-        }
+        open.catch_up();
         let energies = self.look.color_by == ColorBy::Energy;
         let wish = (open.document.revision(), energies);
         if self.sent != Some(wish) {
@@ -407,49 +338,8 @@ impl Session {
 
     /// Turns the camera so that the selection, or else the whole surface, fills the viewport.
     pub fn frame(&mut self) {
-        let Some(open) = &mut self.open else { return };
-        let positions = &open.surface.frame().positions;
-        let selection = open.document.scene().selection.vertices();
-        let bounds = if selection.is_empty() {
-            bounds(positions.iter().copied())
-        } else {
-            bounds(selection.iter().map(|v| positions[v.index()]))
-        };
-        if let Some((lo, hi)) = bounds {
-            open.camera.frame(lo, hi);
+        if let Some(open) = &mut self.open {
+            open.frame();
         }
     }
-}
-
-impl Open {
-    /// Smallest and largest corner of the surface on screen, view space.
-    pub fn bounds(&self) -> (Vec3, Vec3) {
-        bounds(self.surface.frame().positions.iter().copied()).unwrap_or_default()
-    }
-
-    /// Makes the picture show the document's pose without waiting for the solver.
-    fn show_pose(&mut self) {
-        let model = self.document.model();
-        let positions: Vec<_> = self.document.pose().positions.iter().map(|&p| model.to_view(p)).collect();
-        let mut normals = Vec::new();
-        self.normals.compute(&positions, &model.triangles, &mut normals);
-        self.surface.set_frame(Arc::new(SurfaceFrame { positions, normals }));
-    }
-}
-
-impl Status {
-    /// Exponential mean over about ten surfaces; a pause of a second or more starts anew.
-    fn count_surface(&mut self) {
-        let now = std::time::Instant::now();
-        if let Some(last) = self.last_surface.replace(now) {
-            let seconds = now.duration_since(last).as_secs_f64();
-            let rate = 1.0 / seconds.max(1e-6);
-            let keep = if seconds > 1.0 || self.surfaces_per_second == 0.0 { 0.0 } else { 0.9 };
-            self.surfaces_per_second = keep * self.surfaces_per_second + (1.0 - keep) * rate;
-        }
-    }
-}
-
-fn bounds(points: impl Iterator<Item = Vec3>) -> Option<(Vec3, Vec3)> {
-    points.map(|p| (p, p)).reduce(|(lo, hi), (p, _)| (lo.min(p), hi.max(p)))
 }
