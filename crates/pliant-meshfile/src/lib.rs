@@ -13,12 +13,14 @@
 //! **Trust.** No input panics, hangs, reserves memory it does not fill, or makes the crate open a file outside the
 //! model's own folder. Sizes are compared with what is really there before anything is reserved.
 //!
-//! A format is one folder under `formats` and one line in its table.
+//! A format is one variant of [`Format`], one folder under `formats` and one line in its table.
 
 mod budget;
 mod error;
 mod files;
+mod format;
 mod formats;
+mod generated;
 mod mesh_file;
 mod normals;
 mod polygon;
@@ -29,7 +31,8 @@ mod tests;
 mod weld;
 
 pub use error::{Fault, OpenError, SaveError, Warning};
-pub use formats::Format;
-pub use mesh_file::{MeshFile, Part, from_bytes, open};
+pub use format::Format;
+pub use mesh_file::{MeshFile, from_bytes, open};
 pub use rigidity::read_rigidity;
+pub use shape::Part;
 pub use weld::Weld;

@@ -1,10 +1,10 @@
 //! A mesh file as opened, and the ways in and out.
 
-use crate::formats::{Edit, Input, Opened, Output, Source};
-use crate::shape::{Corner, NONE, Shape, ShapePart};
-use crate::{Fault, Format, OpenError, SaveError, Warning, Weld, budget, files, normals, rigidity};
+use crate::formats::{Before, Edit, Input, Opened, Output, Source, entry};
+use crate::generated::Generated;
+use crate::shape::{NO_MATERIAL, Part};
+use crate::{Fault, Format, OpenError, SaveError, Warning, Weld, budget, files, rigidity};
 use glam::{DVec3, Vec2};
-use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -34,20 +34,6 @@ pub struct MeshFile {
     source: Arc<dyn Source>,
 }
 
-/// A named piece of a file: a group of OBJ, a primitive of glTF.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Part {
-    /// As in the file, or made up from its place there.
-    pub name: String,
-    /// Its range of [`MeshFile::triangles`].
-    pub triangles: Range<usize>,
-    /// Base color of its material: red, green, blue, alpha; light gray without one.
-    pub base_color: [f32; 4],
-}
-
-/// Base color of what has no material.
-pub(crate) const NO_MATERIAL: [f32; 4] = [0.8, 0.8, 0.8, 1.0];
-
 /// Opens a mesh file, its format chosen by the ending of its name.
 ///
 /// References are followed inside the file's folder only. Errors name the file, the place in it and what is wrong.
@@ -63,7 +49,7 @@ pub fn open(path: &Path) -> Result<MeshFile, OpenError> {
     let input = Input { bytes, folder: Some(files::folder_of(path)), name: &name };
     let mut file = read(input, format).map_err(|fault| fault.in_file(path))?;
     file.path = Some(path.to_owned());
-    if format.entry().rigidity_in_sidecar {
+    if entry(format).rigidity_in_sidecar {
         read_sidecar(&mut file, path)?;
     }
     Ok(file)
@@ -75,7 +61,7 @@ pub fn from_bytes(bytes: &[u8], format: Format, name: &str) -> Result<MeshFile, 
 }
 
 fn read(input: Input<'_>, format: Format) -> Result<MeshFile, Fault> {
-    let opened = (format.entry().read)(input)?;
+    let opened = (entry(format).read)(input)?;
     if opened.triangles.is_empty() {
         return Err(Fault::Empty);
     }
@@ -150,7 +136,7 @@ impl MeshFile {
 
     /// Triangles over surface points, in the order of `triangles`.
     pub fn point_triangles(&self) -> Vec<[u32; 3]> {
-        self.triangles.iter().map(|t| t.map(|vertex| self.weld.point_of_vertex[vertex as usize])).collect()
+        self.weld.triangles(&self.triangles)
     }
 
     /// r per surface point, the largest among welded vertices, and whether some of them disagreed.
@@ -166,7 +152,7 @@ impl MeshFile {
     pub fn save(&self, to: &Path, points: &[DVec3], rigidity: Option<&[u16]>) -> Result<Vec<Warning>, SaveError> {
         let format = Format::of(to).ok_or_else(|| SaveError::UnknownFormat { path: to.to_owned() })?;
         let edit = self.edit(to, points, rigidity)?;
-        let entry = format.entry();
+        let entry = entry(format);
         let mut output = match self.source.rewrite(&edit, to, format) {
             Some(output) => output?,
             None => self.convert(&edit, to, format)?,
@@ -201,7 +187,7 @@ impl MeshFile {
 
     fn convert(&self, edit: &Edit<'_>, to: &Path, format: Format) -> Result<Output, SaveError> {
         let shape = self.source.shape(edit);
-        let mut output = (format.entry().write)(&shape, to)?;
+        let mut output = (entry(format).write)(&shape, to)?;
         let left: Vec<&str> = shape.left_behind.clone();
         if !left.is_empty() {
             output.warnings.push(Warning(format!("not carried over into {}: {}", to.display(), left.join(", "))));
@@ -235,35 +221,15 @@ impl MeshFile {
         };
         let positions = of_vertex.clone().enumerate().map(spread).collect();
         let rigidity = rigidity.map(|r| of_vertex.map(|point| r[point]).collect());
-        Ok(Edit { mesh: self, positions, rigidity })
-    }
-}
-
-/// The source of a mesh that no file holds.
-#[derive(Debug)]
-struct Generated;
-
-impl Source for Generated {
-    fn rewrite(&self, _: &Edit<'_>, _: &Path, _: Format) -> Option<Result<Output, SaveError>> {
-        None
-    }
-
-    fn shape(&self, edit: &Edit<'_>) -> Shape {
-        let mesh = edit.mesh;
-        let corner = |vertex| Corner { vertex, uv: NONE, normal: vertex };
-        let part =
-            |part: &Part| ShapePart { name: part.name.clone(), triangles: part.triangles.clone(), material: None };
-        // Generated shapes may repeat vertices too: normals are those of the welded surface.
-        let points: Vec<DVec3> =
-            mesh.weld.vertex_of_point.iter().map(|&vertex| edit.positions[vertex as usize]).collect();
-        let of_point = normals::smooth(&points, &mesh.point_triangles());
-        Shape {
-            normals: mesh.weld.point_of_vertex.iter().map(|&point| of_point[point as usize]).collect(),
-            positions: edit.positions.clone(),
-            triangles: mesh.triangles.iter().map(|t| t.map(corner)).collect(),
-            parts: mesh.parts.iter().map(part).collect(),
-            rigidity: edit.rigidity.clone(),
-            ..Shape::default()
-        }
+        let before = Before {
+            positions: &self.positions,
+            triangles: &self.triangles,
+            weld: &self.weld,
+            rigidity: &self.rigidity,
+            uvs: &self.uvs,
+            colors: &self.colors,
+            parts: &self.parts,
+        };
+        Ok(Edit { mesh: before, positions, rigidity })
     }
 }

@@ -3,6 +3,20 @@
 use glam::{DVec3, Vec2, Vec3};
 use std::ops::Range;
 
+/// A named piece of a file: a group of OBJ, a primitive of glTF.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Part {
+    /// As in the file, or made up from its place there.
+    pub name: String,
+    /// Its range of [`MeshFile::triangles`].
+    pub triangles: Range<usize>,
+    /// Base color of its material: red, green, blue, alpha; light gray without one.
+    pub base_color: [f32; 4],
+}
+
+/// Base color of what has no material.
+pub(crate) const NO_MATERIAL: [f32; 4] = [0.8, 0.8, 0.8, 1.0];
+
 /// Marks a corner without texture coordinate or normal.
 pub(crate) const NONE: u32 = u32::MAX;
 

@@ -22,6 +22,11 @@ impl Weld {
         self.vertex_of_point.len()
     }
 
+    /// Triangles over file vertices as triangles over surface points, in the same order.
+    pub(crate) fn triangles(&self, triangles: &[[u32; 3]]) -> Vec<[u32; 3]> {
+        triangles.iter().map(|t| t.map(|vertex| self.point_of_vertex[vertex as usize])).collect()
+    }
+
     /// The largest of `per_vertex` at each surface point, and whether vertices of one point disagree.
     ///
     /// Takes one value per file vertex, and gives one per surface point.

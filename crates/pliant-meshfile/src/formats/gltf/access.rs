@@ -1,6 +1,7 @@
 //! Accessors: typed lists inside buffers, checked before they are read.
 
-use super::{GltfSource, buffers::Buffer, container::Container, json};
+use super::source::GltfSource;
+use super::{buffers::Buffer, container::Container, json};
 use crate::{Fault, budget};
 use serde_json::Value;
 

@@ -6,7 +6,8 @@
 use super::builder::Builder;
 use super::container;
 use super::relocate::data_uri;
-use crate::formats::{Format, Output};
+use crate::Format;
+use crate::formats::Output;
 use crate::shape::{Corner, Material, NONE, Shape};
 use crate::{SaveError, normals};
 use glam::{Vec2, Vec3};

@@ -16,58 +16,16 @@ mod read;
 mod relocate;
 mod rewrite;
 mod shape;
+mod source;
 
 pub(super) use export::write;
 pub(super) use read::read;
 
-use super::{Edit, Format, Output, Source};
-use crate::SaveError;
+use super::source::{Edit, Output, Source};
 use crate::shape::Shape;
-use glam::{DMat4, DVec3};
-use serde_json::Value;
-use std::ops::Range;
-use std::path::{Path, PathBuf};
-
-/// A glTF file as it came.
-#[derive(Debug)]
-struct GltfSource {
-    container: container::Container,
-    document: Value,
-    /// Bytes of each buffer; buffer 0 of a GLB file without URI is the container's binary chunk.
-    buffers: Vec<buffers::Buffer>,
-    blocks: Vec<Block>,
-    primitives: Vec<Primitive>,
-    folder: Option<PathBuf>,
-}
-
-/// A POSITION accessor: a range of file vertices that move together into world space.
-#[derive(Clone, Debug)]
-struct Block {
-    accessor: usize,
-    vertices: Range<usize>,
-    world_from_local: DMat4,
-    local_from_world: DMat4,
-}
-
-impl Block {
-    fn to_world(&self, local: DVec3) -> DVec3 {
-        self.world_from_local.transform_point3(local)
-    }
-}
-
-/// A primitive with positions.
-#[derive(Clone, Debug)]
-struct Primitive {
-    mesh: usize,
-    index: usize,
-    block: usize,
-    normal: Option<usize>,
-    tangent: Option<usize>,
-    uv: Option<usize>,
-    material: Option<usize>,
-    /// Range of the file's triangles.
-    triangles: Range<usize>,
-}
+use crate::{Format, SaveError};
+use source::GltfSource;
+use std::path::Path;
 
 impl Source for GltfSource {
     fn rewrite(&self, edit: &Edit<'_>, to: &Path, format: Format) -> Option<Result<Output, SaveError>> {

@@ -2,14 +2,13 @@
 
 mod attributes;
 
-pub(super) use attributes::finite;
-
 use super::super::{Input, Opened};
 use super::access::{Accessor, Component, Data};
-use super::{Block, GltfSource, Primitive, buffers, container, json, nodes};
-use crate::mesh_file::NO_MATERIAL;
-use crate::{Fault, Part, Warning, budget, rigidity};
-use attributes::Attribute;
+use super::source::{Block, GltfSource, Primitive};
+use super::{buffers, container, json, nodes};
+use crate::shape::{NO_MATERIAL, Part};
+use crate::{Fault, Warning, budget, rigidity};
+use attributes::{Attribute, finite};
 use glam::{DMat3, DMat4, DVec3, Vec2};
 use serde_json::Value;
 use std::collections::{HashMap, HashSet};
@@ -63,6 +62,13 @@ fn filled<T: Copy>(mut values: Vec<T>, n: usize, rest: T) -> Option<Vec<T>> {
     }
     values.resize(n, rest);
     Some(values)
+}
+
+/// Base color factor of a material: white where it says none.
+pub(super) fn base_color(material: &Value) -> [f32; 4] {
+    let rough = material.get("pbrMetallicRoughness");
+    let factor = rough.and_then(|rough| json::numbers::<4>(rough, "baseColorFactor", "").ok().flatten());
+    factor.unwrap_or([1.0; 4]).map(|x| finite(x, 1.0))
 }
 
 fn parse_document(bytes: &[u8]) -> Result<Value, Fault> {
@@ -330,6 +336,6 @@ impl<'a> Reader<'a> {
 
     fn base_color(&self, material: Option<usize>) -> [f32; 4] {
         let materials = json::list(self.data.document, "materials").unwrap_or_default();
-        material.and_then(|m| materials.get(m)).map_or(NO_MATERIAL, super::shape::base_color)
+        material.and_then(|m| materials.get(m)).map_or(NO_MATERIAL, base_color)
     }
 }

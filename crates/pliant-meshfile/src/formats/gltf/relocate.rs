@@ -1,7 +1,8 @@
 //! Buffers and images of a document that is saved in another kind of file, or in another folder.
 
+use super::base64;
 use super::buffers::Buffer;
-use super::{GltfSource, base64};
+use super::source::GltfSource;
 use crate::{Warning, budget, files};
 use serde_json::{Value, json};
 use std::path::Path;

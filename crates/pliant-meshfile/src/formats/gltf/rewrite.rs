@@ -3,9 +3,10 @@
 use super::access::Data;
 use super::builder::Builder;
 use super::relocate::relocate;
-use super::{Block, GltfSource, Primitive, container, shape};
-use crate::formats::{Edit, Format, Output};
-use crate::{SaveError, Warning};
+use super::source::{Block, GltfSource, Primitive};
+use super::{container, shape};
+use crate::formats::{Edit, Output};
+use crate::{Format, SaveError, Warning};
 use glam::{DQuat, DVec3};
 use serde_json::Value;
 use std::collections::HashMap;

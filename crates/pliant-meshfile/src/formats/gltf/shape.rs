@@ -1,20 +1,15 @@
 //! A glTF file as a plain mesh for other formats, and its directions for a new shape.
 
 use super::access::Data;
-use super::{Block, GltfSource, Primitive, json};
+use super::json;
+use super::read::base_color;
+use super::source::{Block, GltfSource, Primitive};
 use crate::formats::Edit;
 use crate::normals;
 use crate::shape::{Corner, Material, NONE, Shape, ShapePart};
 use glam::{DMat3, DQuat, DVec3, Vec3};
 use serde_json::Value;
 use std::collections::HashMap;
-
-/// Base color factor of a material: white where it says none.
-pub(super) fn base_color(material: &Value) -> [f32; 4] {
-    let rough = material.get("pbrMetallicRoughness");
-    let factor = rough.and_then(|rough| json::numbers::<4>(rough, "baseColorFactor", "").ok().flatten());
-    factor.unwrap_or([1.0; 4]).map(|x| super::read::finite(x, 1.0))
-}
 
 /// The rotation of each file vertex's normal, `None` where its faces did not change.
 ///
@@ -41,7 +36,7 @@ pub(super) fn vertex_turns(source: &GltfSource, edit: &Edit<'_>) -> Vec<Option<D
         })
         .collect();
     let cluster = |t: usize, k: usize| Some(cluster_of_vertex[mesh.triangles[t][k] as usize]);
-    let turns = normals::turns(&mesh.triangles, clusters.len(), cluster, &mesh.positions, &edit.positions);
+    let turns = normals::turns(mesh.triangles, clusters.len(), cluster, mesh.positions, &edit.positions);
     cluster_of_vertex.iter().map(|&cluster| turns[cluster as usize]).collect()
 }
 

@@ -1,6 +1,6 @@
 //! A new OBJ file of a mesh that came from elsewhere.
 
-use super::super::Output;
+use crate::formats::Output;
 use crate::shape::{Corner, Material, NONE, Shape};
 use crate::{SaveError, files};
 use std::collections::HashSet;

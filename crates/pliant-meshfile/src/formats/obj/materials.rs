@@ -2,8 +2,7 @@
 
 use super::parse::{MAX_LIBRARIES, Parsed};
 use super::text::Statements;
-use crate::mesh_file::NO_MATERIAL;
-use crate::shape::Material;
+use crate::shape::{Material, NO_MATERIAL};
 use crate::{Warning, budget, files};
 use std::collections::HashMap;
 use std::path::Path;

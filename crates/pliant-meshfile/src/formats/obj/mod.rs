@@ -8,37 +8,18 @@ mod export;
 mod materials;
 mod parse;
 mod rewrite;
+mod source;
 mod text;
 
 pub(super) use export::write;
 
-use super::{Edit, Format, Input, Opened, Output, Source};
-use crate::mesh_file::NO_MATERIAL;
-use crate::shape::{Corner, Material, NONE, Shape, ShapePart};
-use crate::{Fault, Part, SaveError};
-use glam::{DVec3, Vec2, Vec3};
+use super::source::{Edit, Input, Opened, Output, Source};
+use crate::shape::{Corner, NO_MATERIAL, NONE, Part, Shape, ShapePart};
+use crate::{Fault, Format, SaveError};
+use glam::{Vec2, Vec3};
+use source::ObjSource;
 use std::path::Path;
 use std::sync::Arc;
-
-/// An OBJ file as it came.
-#[derive(Debug)]
-struct ObjSource {
-    bytes: Vec<u8>,
-    /// Where each `v` statement begins in `bytes`.
-    vertex_at: Vec<u64>,
-    /// Where each `vn` statement begins.
-    normal_at: Vec<u64>,
-    normals: Vec<Vec3>,
-    uvs: Vec<Vec2>,
-    /// Texture coordinate and normal of the corners of each triangle.
-    corners: Vec<[(u32, u32); 3]>,
-    parts: Vec<ShapePart>,
-    materials: Vec<Material>,
-    /// Material libraries the file names.
-    libraries: Vec<String>,
-    has_polygons: bool,
-    folder: Option<std::path::PathBuf>,
-}
 
 /// Reads an OBJ file.
 pub(super) fn read(input: Input<'_>) -> Result<Opened, Fault> {
@@ -125,6 +106,3 @@ impl Source for ObjSource {
         }
     }
 }
-
-/// A coordinate triple of a statement.
-type Triple = DVec3;

@@ -1,16 +1,15 @@
 //! Statements of OBJ into geometry.
 
-use super::Triple;
 use super::text::{Statement, Statements, Word};
 use crate::shape::{NONE, ShapePart};
 use crate::{Fault, Warning, budget, polygon};
-use glam::{Vec2, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 use std::collections::HashMap;
 
 /// Geometry and names of an OBJ file. Every index is in range.
 #[derive(Default)]
 pub(super) struct Parsed {
-    pub(super) positions: Vec<Triple>,
+    pub(super) positions: Vec<DVec3>,
     pub(super) colors: Option<Vec<[f32; 4]>>,
     pub(super) uvs: Vec<Vec2>,
     pub(super) normals: Vec<Vec3>,
@@ -137,7 +136,7 @@ impl Reader {
             let alpha = more.get(3).copied().unwrap_or(1.0);
             self.colored.push((vertex, [r, g, b, alpha].map(|x| finite(Some(x)))));
         }
-        self.out.positions.push(Triple::new(x, y, z));
+        self.out.positions.push(DVec3::new(x, y, z));
         self.out.vertex_at.push(statement.start as u64);
         Ok(())
     }

@@ -1,8 +1,8 @@
 //! The same OBJ text with other numbers in its `v` and `vn` lines.
 
-use super::super::{Edit, Output};
-use super::ObjSource;
+use super::source::ObjSource;
 use super::text::statement_at;
+use crate::formats::{Edit, Output};
 use crate::shape::NONE;
 use crate::{SaveError, Warning, files, normals};
 use glam::Vec3;
@@ -50,7 +50,7 @@ pub(super) fn turned_normals(source: &ObjSource, edit: &Edit<'_>) -> Vec<(Vec3, 
         let normal = source.corners[t][k].1;
         (normal != NONE).then_some(normal)
     };
-    let turns = normals::turns(&mesh.triangles, source.normals.len(), cluster, &mesh.positions, &edit.positions);
+    let turns = normals::turns(mesh.triangles, source.normals.len(), cluster, mesh.positions, &edit.positions);
     let apply = |(&normal, turn): (&Vec3, Option<_>)| match turn {
         Some(turn) => (normals::turned(normal, turn), true),
         None => (normal, false),
@@ -78,7 +78,7 @@ fn torn_normals(source: &ObjSource, edit: &Edit<'_>, of_line: &[(Vec3, bool)]) -
         of_corner.push([number(0), number(1), number(2)]);
     }
     let cluster = |t: usize, k: usize| Some(of_corner[t][k]);
-    let turns = normals::turns(triangles, own.len(), cluster, &edit.mesh.positions, &edit.positions);
+    let turns = normals::turns(triangles, own.len(), cluster, edit.mesh.positions, &edit.positions);
     let mut torn: Vec<u32> = Vec::new();
     for ((_, normal), cluster) in own {
         let Some(&(shared, _)) = of_line.get(normal as usize) else { continue };

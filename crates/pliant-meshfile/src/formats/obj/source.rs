@@ -1,0 +1,25 @@
+//! An OBJ file as it came.
+
+use crate::shape::{Material, ShapePart};
+use glam::{Vec2, Vec3};
+use std::path::PathBuf;
+
+/// An OBJ file as it came.
+#[derive(Debug)]
+pub(super) struct ObjSource {
+    pub(super) bytes: Vec<u8>,
+    /// Where each `v` statement begins in `bytes`.
+    pub(super) vertex_at: Vec<u64>,
+    /// Where each `vn` statement begins.
+    pub(super) normal_at: Vec<u64>,
+    pub(super) normals: Vec<Vec3>,
+    pub(super) uvs: Vec<Vec2>,
+    /// Texture coordinate and normal of the corners of each triangle.
+    pub(super) corners: Vec<[(u32, u32); 3]>,
+    pub(super) parts: Vec<ShapePart>,
+    pub(super) materials: Vec<Material>,
+    /// Material libraries the file names.
+    pub(super) libraries: Vec<String>,
+    pub(super) has_polygons: bool,
+    pub(super) folder: Option<PathBuf>,
+}
