@@ -102,6 +102,15 @@ impl Model {
         view.as_dvec3() + self.origin
     }
 
+    /// Mean length of (a thousand of) the edges, world units.
+    pub fn mean_edge(&self) -> f64 {
+        let (edges, positions) = (self.mesh.edges(), self.mesh.positions());
+        let some = edges.iter().step_by(edges.len().div_ceil(1000).max(1));
+        let (n, sum) = some
+            .fold((0, 0.0), |(n, sum), &[a, b]| (n + 1, sum + positions[a as usize].distance(positions[b as usize])));
+        sum / f64::from(n.max(1))
+    }
+
     /// Length of the diagonal of the rest surface's bounding box.
     pub fn diagonal(&self) -> f32 {
         (self.bounds.1 - self.bounds.0).length()

@@ -95,6 +95,7 @@ impl Session {
         for warning in &opened.model.warnings {
             self.notices.push(NoticeKind::Warning, warning.clone());
         }
+        self.options.fit_patch(f64::from(opened.model.diagonal()), opened.model.mean_edge());
         self.tool = self.tool_kind.new_tool();
         self.status = Status::default();
         self.sent = None;

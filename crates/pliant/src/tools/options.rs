@@ -42,12 +42,22 @@ pub struct Options {
 }
 
 impl Options {
+    /// Largest patch, in rings (by eye).
+    pub const MOST_PATCH_RINGS: u16 = 40;
+
+    /// Takes over a patch size that looks alike on coarse and fine meshes: a fiftieth of the diagonal, but two rings at
+    /// least, because a handle of one vertex pulls out a spike (by eye).
+    pub fn fit_patch(&mut self, diagonal: f64, mean_edge: f64) {
+        let rings = (0.02 * diagonal / mean_edge.max(f64::MIN_POSITIVE)).round();
+        self.patch_rings = rings.clamp(2.0, f64::from(Options::MOST_PATCH_RINGS)) as u16;
+    }
+
     /// Smallest and largest brush radius, in points (by eye).
     pub const BRUSH_RADIUS_PX: std::ops::RangeInclusive<f32> = 3.0..=400.0;
 }
 
 impl Default for Options {
-    /// A handle of one vertex pulls out a spike, so the patch has two rings; r = 6 is the paper's stiffest color.
+    /// r = 6 is the paper's stiffest color.
     fn default() -> Options {
         Options {
             rigidity: 6,

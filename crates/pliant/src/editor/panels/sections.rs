@@ -13,7 +13,7 @@ use crate::viewport::{Shading, Theme};
 /// Patch size of handles and anchors.
 pub(super) fn patch(ui: &mut Ui, session: &mut Session) {
     ui.horizontal(|ui| {
-        let slider = Slider::new(&mut session.options.patch_rings, 0..=12);
+        let slider = Slider::new(&mut session.options.patch_rings, 0..=Options::MOST_PATCH_RINGS);
         ui.add(slider).on_hover_text("Rings of vertices around the clicked one that are held with it; 0 is one vertex");
         ui.label("patch rings");
     });
