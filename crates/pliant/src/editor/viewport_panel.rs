@@ -17,6 +17,10 @@ use crate::viewport::{
 
 /// Larger groups show only some of their vertices: thousands of dots hide the surface (by eye).
 const DOTS_PER_GROUP: usize = 100;
+/// How long nothing may move before a processor draws the picture with smooth edges (by eye).
+const REST_BEFORE_REFINING: std::time::Duration = std::time::Duration::from_millis(350);
+/// Samples a pixel then.
+const REFINED_SAMPLES: u32 = 4;
 /// Zoom for one point of scrolling; a notch of a common wheel is 50 points or a factor of 1.13 (by eye).
 const ZOOM_PER_POINT: f32 = 0.0025;
 
@@ -53,6 +57,8 @@ pub(super) struct ViewportPanel {
     /// What lay under the pointer when the tool last heard of it: the tool, the surface and the camera.
     hovered: Option<(ToolKind, *const SurfaceFrame, Camera)>,
     cache: Cache,
+    /// When something last moved, for pictures made by the processor.
+    moved_at: std::time::Instant,
     /// Whether pictures are made by the processor.
     pub(super) is_software: bool,
     /// Time that the renderer took for the last picture, on this thread.
@@ -68,6 +74,7 @@ impl ViewportPanel {
             watch: watch_device(&render_state.device),
             has_told_of_loss: false,
             render_state: render_state.clone(),
+            moved_at: std::time::Instant::now(),
             drawing: std::time::Duration::ZERO,
             texture: None,
             gesture: None,
@@ -222,6 +229,10 @@ impl ViewportPanel {
         };
         let size = (rect.size() * pixels_per_point).round().max(egui::Vec2::splat(1.0));
         let begun = std::time::Instant::now();
+        if self.is_software {
+            let samples = self.samples_now(ui, session);
+            self.renderer.set_samples(samples);
+        }
         let (view, generation) = self.renderer.render(&scene, [size.x as u32, size.y as u32]);
         self.drawing = begun.elapsed();
         let mut egui_renderer = self.render_state.renderer.write();
@@ -243,6 +254,22 @@ impl ViewportPanel {
             let points: Vec<Pos2> = outline.iter().map(|p| rect.min + egui::vec2(p.x, p.y)).collect();
             ui.painter().add(egui::Shape::closed_line(points, egui::Stroke::new(1.5, theme::ACCENT)));
         }
+    }
+
+    /// A processor draws one sample a pixel while things move, and smooth edges once they have rested for a moment.
+    fn samples_now(&mut self, ui: &egui::Ui, session: &Session) -> u32 {
+        let report = session.status.report.as_ref();
+        let is_iterating = report.is_some_and(|report| report.state == SolveState::Iterating);
+        let is_used = ui.input(|input| !input.events.is_empty() || input.pointer.any_down());
+        if self.gesture.is_some() || is_iterating || is_used {
+            self.moved_at = std::time::Instant::now();
+        }
+        let rested = self.moved_at.elapsed();
+        if rested >= REST_BEFORE_REFINING {
+            return REFINED_SAMPLES;
+        }
+        ui.ctx().request_repaint_after(REST_BEFORE_REFINING - rested);
+        1
     }
 
     /// What the picture shows now; cheap where nothing changed.
