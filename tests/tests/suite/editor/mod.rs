@@ -2,6 +2,7 @@
 
 mod bending;
 mod files;
+mod monkey;
 mod painting;
 
 use std::path::Path;
