@@ -3,11 +3,11 @@
 use glam::{DMat3, DQuat, DVec3};
 
 use crate::analysis::Layout;
-use crate::energy::{DIRECT_BELOW, vertex_energies};
+use crate::energy::{DIRECT_BELOW, FEW_EDGES, ZERO_BELOW, component_frames, framed_terms, vertex_energies};
 use crate::neighborhoods::Neighborhoods;
 use crate::parallel::{CHUNK, chunks, chunks_summed};
 use crate::rotations::{Ties, best_rotation};
-use crate::sums::{edge_pulls, edge_vectors, neighborhood_sum, prefix_sums, vertex_pulls};
+use crate::sums::{edge_deviations, edge_pulls, edge_vectors, inner, neighborhood_sum, prefix_sums, vertex_pulls};
 use crate::system::System;
 use crate::transpose::Transpose;
 
@@ -35,12 +35,14 @@ impl Pose {
     }
 }
 
-/// What the sums run over: r-rings, their transpose, and d w.
+/// What the sums run over: r-rings, their transpose, and what depends on them alone.
 pub(crate) struct Rings {
     pub(crate) neighborhoods: Neighborhoods,
     pub(crate) transpose: Transpose,
     /// d_e w_e.
     pub(crate) stiffness: Vec<f64>,
+    /// C_k = Σ_{e ∈ N(k)} w_e e eᵀ; empty where a small energy is summed directly.
+    moments: Vec<DMat3>,
 }
 
 impl Rings {
@@ -48,8 +50,27 @@ impl Rings {
         let transpose = Transpose::new(layout, &neighborhoods);
         let counts = transpose.counts(layout, &neighborhoods.r);
         let stiffness = counts.iter().zip(&layout.weight).map(|(d, w)| d * w).collect();
-        Rings { neighborhoods, transpose, stiffness }
+        let is_large = counts.iter().sum::<f64>() > FEW_EDGES * layout.n_edges() as f64;
+        let moments = if is_large { moments(layout, &neighborhoods) } else { Vec::new() };
+        Rings { neighborhoods, transpose, stiffness, moments }
     }
+}
+
+fn moments(layout: &Layout, neighborhoods: &Neighborhoods) -> Vec<DMat3> {
+    let mut prefix = vec![DMat3::ZERO; layout.n_edges() + layout.n_blocks()];
+    prefix_sums(layout, &slot_bounds(layout), &layout.edge_rest, &mut prefix);
+    let mut moments = vec![DMat3::ZERO; layout.n_vertices()];
+    chunks(&mut moments, |first, moments| {
+        for (k, moment) in (first..).zip(moments) {
+            *moment = neighborhood_sum(layout, neighborhoods, &layout.edge_rest, &prefix, k);
+        }
+    });
+    moments
+}
+
+/// First slot of every block.
+fn slot_bounds(layout: &Layout) -> Vec<u32> {
+    layout.blocks.iter().enumerate().map(|(block, &edge)| edge + block as u32).collect()
 }
 
 /// What a local step found out.
@@ -71,22 +92,27 @@ pub(crate) struct Workspace {
     vertex_pulls: Vec<DVec3>,
     /// Three columns, x, y, z.
     pub(crate) columns: Vec<f64>,
+    /// Two numbers per vertex: terms of its energy.
+    terms: Vec<[f64; 2]>,
     energies: Vec<f64>,
+    /// One rotation per component.
+    frames: Vec<DQuat>,
     partial: Vec<f64>,
 }
 
 impl Workspace {
     pub(crate) fn new(layout: &Layout) -> Workspace {
         let (n, m) = (layout.n_vertices(), layout.n_edges());
-        let slot_bounds = layout.blocks.iter().enumerate().map(|(block, &edge)| edge + block as u32).collect();
         Workspace {
             edge_now: vec![DVec3::ZERO; m],
             pulls: vec![DVec3::ZERO; m],
             prefix: Vec::new(),
-            slot_bounds,
+            slot_bounds: slot_bounds(layout),
             vertex_pulls: vec![DVec3::ZERO; n],
             columns: vec![0.0; 3 * n],
+            terms: vec![[0.0; 2]; n],
             energies: vec![0.0; n],
+            frames: Vec::with_capacity(layout.component.iter().max().map_or(0, |&last| last as usize + 1)),
             partial: vec![0.0; n.max(m).div_ceil(CHUNK)],
         }
     }
@@ -139,15 +165,53 @@ impl Workspace {
                 let t = neighborhood_sum(layout, &rings.neighborhoods, edge_now, prefix, k);
                 *turn = best_rotation(t, *turn, ties);
                 *rotation = DMat3::from_quat(*turn);
-                gain += rotation.x_axis.dot(t.x_axis) + rotation.y_axis.dot(t.y_axis) + rotation.z_axis.dot(t.z_axis);
+                gain += inner(*rotation, t);
             }
             gain
         });
         let mut energy = scale - 2.0 * gain;
         if energy.abs() < DIRECT_BELOW * scale.abs() {
-            energy = self.direct_energy(layout, rings, pose);
+            energy = self.small_energy(layout, rings, pose, scale);
         }
         LocalOutcome { energy, scale }
+    }
+
+    /// Eq. (1) where the difference of large sums says too little; `edge_now` are those of the pose.
+    fn small_energy(&mut self, layout: &Layout, rings: &Rings, pose: &Pose, scale: f64) -> f64 {
+        if rings.moments.is_empty() {
+            return self.direct_energy(layout, rings, pose);
+        }
+        let (energy, size) = self.framed_energy(layout, rings, pose);
+        // What will count as 0 needs no digits.
+        let uncertain = DIRECT_BELOW * size;
+        if energy.abs() >= uncertain || uncertain <= ZERO_BELOW * scale.abs() {
+            energy
+        } else {
+            self.direct_energy(layout, rings, pose)
+        }
+    }
+
+    /// Eq. (1) seen from the frames of the components, and the sum of what was added up. Overwrites `edge_now`.
+    fn framed_energy(&mut self, layout: &Layout, rings: &Rings, pose: &Pose) -> (f64, f64) {
+        let Workspace { edge_now, prefix, slot_bounds, frames, terms, partial, .. } = self;
+        component_frames(&layout.component, &pose.turns, frames);
+        let strained = edge_deviations(layout, &rings.stiffness, frames, edge_now, partial);
+        if !prefix.is_empty() {
+            prefix_sums(layout, slot_bounds, edge_now, prefix);
+        }
+        chunks(terms, |first, terms| {
+            for (k, terms) in (first..).zip(terms) {
+                let u = neighborhood_sum(layout, &rings.neighborhoods, edge_now, prefix, k);
+                let frame = frames[layout.component[k] as usize];
+                *terms = framed_terms(frame, pose.turns[k], rings.moments[k], u);
+            }
+        });
+        let mut sums = [strained, strained.abs()];
+        for chunk in terms.chunks(CHUNK) {
+            sums[0] += chunk.iter().map(|[a, b]| a + b).sum::<f64>();
+            sums[1] += chunk.iter().map(|[a, b]| a.abs() + b.abs()).sum::<f64>();
+        }
+        (sums[0], sums[1])
     }
 
     /// Eq. (1) summed square by square.

@@ -8,7 +8,7 @@
 //! | Q_e | 3 × 3 per edge | Σ_k M_ke R_k, as a running sum |
 //! | f_e | 3 per edge | w_e (Q_e e − d_e e'), the pull of an edge on its ends |
 
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DQuat, DVec3};
 
 use crate::analysis::Layout;
 use crate::neighborhoods::Neighborhoods;
@@ -31,6 +31,26 @@ pub(crate) fn edge_vectors(
             let [i, j] = layout.edges[e];
             *now = positions[i as usize] - positions[j as usize];
             sum += stiffness[e] * (now.length_squared() + layout.edge_rest[e].length_squared());
+        }
+        sum
+    })
+}
+
+/// δ_e = Fᵀe' − e in the place of e', with F the frame of the component; returns Σ_e d_e w_e ‖δ_e‖².
+pub(crate) fn edge_deviations(
+    layout: &Layout,
+    stiffness: &[f64],
+    frames: &[DQuat],
+    edge_now: &mut [DVec3],
+    partial: &mut [f64],
+) -> f64 {
+    let mut none = vec![(); edge_now.len()];
+    chunks_summed(edge_now, &mut none, partial, |first, now, _| {
+        let mut sum = 0.0;
+        for (e, now) in (first..).zip(now) {
+            let frame = frames[layout.component[layout.edges[e][0] as usize] as usize];
+            *now = frame.conjugate() * *now - layout.edge_rest[e];
+            sum += stiffness[e] * now.length_squared();
         }
         sum
     })
@@ -118,6 +138,12 @@ pub(crate) fn vertex_pulls(layout: &Layout, is_fixed: &[bool], pulls: &[DVec3], 
             }
         }
     });
+}
+
+/// ⟨A, B⟩, the sum of products entry by entry.
+#[inline]
+pub(crate) fn inner(a: DMat3, b: DMat3) -> f64 {
+    a.x_axis.dot(b.x_axis) + a.y_axis.dot(b.y_axis) + a.z_axis.dot(b.z_axis)
 }
 
 /// a bᵀ.

@@ -72,6 +72,71 @@ fn the_energy_never_rises_and_is_that_of_a_direct_sum() {
 }
 
 #[test]
+fn small_energies_of_large_neighborhoods_keep_eight_digits() {
+    // Two sheets, each turned as a whole by another rotation, so that E is far below the sums that cancel.
+    let sheet = bumpy_sheet(13);
+    let n = sheet.n_vertices();
+    let mut positions = sheet.positions().to_vec();
+    positions.extend(sheet.positions().iter().map(|&p| p + DVec3::X * 100.0));
+    let mut triangles = sheet.triangles().to_vec();
+    triangles.extend(sheet.triangles().iter().map(|t| t.map(|v| v + n as u32)));
+    let mesh = || Mesh::new(positions.clone(), triangles.clone()).expect("two sheets are valid");
+    let w = edge_weights(&mesh(), Weights::Clamped);
+    let turns = [DQuat::from_rotation_x(2.0), DQuat::from_rotation_y(-1.0)];
+    let held: Vec<VertexId> = [0, 60, 61, 150, n, n + 61, n + 120].map(|v| VertexId(v as u32)).to_vec();
+    for r in [6, 10] {
+        let mut solver = solver(mesh(), Weights::Clamped, &Rigidity::uniform(2 * n, r), &held);
+        for strain in [1e-2, 1e-3, 1e-4, 1e-5] {
+            let mut random = Random::new(5);
+            let mut moved = |v: &VertexId| turns[v.index() / n] * positions[v.index()] + random.vector() * strain;
+            solver.set_targets(&held.iter().map(&mut moved).collect::<Vec<_>>()).expect("finite");
+            solver.start(Start::Auto);
+            let mut before = f64::INFINITY;
+            for _ in 0..5 {
+                let got = solver.step().energy;
+                assert!(got <= before, "r = {r}, strain {strain}: {got} after {before}");
+                before = got;
+                let plain =
+                    plain_energy(&mesh(), &w, solver.rigidity().as_slice(), &solver.positions(), &solver.rotations());
+                assert!(got > 0.0, "r = {r}, strain {strain}: no energy instead of {plain}");
+                // Positions of size 100 are rounded by 1e-14: at a strain of 1e-5 that alone is 1e-9 of an edge's share.
+                let error = (got - plain).abs() / plain;
+                assert!(error <= 1e-8, "r = {r}, strain {strain}: {got} instead of {plain}, off by {error}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_number_of_threads_changes_no_bit_and_shared_sums_are_right() {
+    // Large enough for every loop to be shared.
+    let run = |n_threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(n_threads).build().expect("threads are to be had");
+        pool.install(|| {
+            let mesh = bumpy_sheet(101);
+            let n = mesh.n_vertices();
+            let held: Vec<VertexId> = [3, 4, 5, 5000, 9000].map(VertexId).to_vec();
+            let pull = |(i, v): (usize, &VertexId)| mesh.positions()[v.index()] + DVec3::Z * (i % 2) as f64;
+            let targets: Vec<DVec3> = held.iter().enumerate().map(pull).collect();
+            let mut solver = solver(mesh, Weights::Clamped, &mixed_rigidity(n, 5), &held);
+            solver.set_targets(&targets).expect("finite");
+            for _ in 0..4 {
+                solver.step();
+                let plain: f64 = solver.vertex_energies().iter().sum();
+                let energy = solver.energy();
+                assert!((energy - plain).abs() <= 1e-9 * plain, "{n_threads} threads: {energy} instead of {plain}");
+            }
+            (solver.positions(), solver.rotations(), solver.energy().to_bits())
+        })
+    };
+    let (one, two) = (run(1), run(2));
+    for v in 0..one.0.len() {
+        assert_eq!((one.0[v], one.1[v]), (two.0[v], two.1[v]), "vertex {v}");
+    }
+    assert_eq!(one.2, two.2);
+}
+
+#[test]
 fn after_a_global_step_the_gradient_of_the_energy_vanishes() {
     let (mesh, mut solver, _) = pulled_sheet(Weights::Clamped);
     let w = edge_weights(&mesh, Weights::Clamped);
