@@ -191,11 +191,17 @@ mod tests {
         }));
         let triangles: Vec<[u32; 3]> = (0..n).map(|i| [0, 1 + i, 1 + (i + 1) % n]).collect();
         let bvh = Bvh::new(&positions, &triangles);
-        for i in 0..=n as usize {
-            let target = positions[0].lerp(positions[i], 0.7);
-            let origin = Vec3::new(0.9, -0.8, 3.0);
-            let ray = Ray { origin, direction: target - origin };
-            assert!(bvh.cast(ray, &positions, &triangles).is_some(), "towards edge {i}");
+        let from = Vec3::new(0.9, -0.8, 3.0);
+        for origin in [from, from * 1e6] {
+            for i in 0..=n as usize {
+                for part in [0.0, 0.1, 0.7, 0.9] {
+                    // Far away, neither origin nor direction are exact: the ray passes the edge on either side by a rounding.
+                    let target = positions[0].lerp(positions[i], part);
+                    let ray = Ray { origin, direction: target - origin };
+                    let met = bvh.cast(ray, &positions, &triangles).is_some();
+                    assert!(met, "from {origin} towards edge {i} at {part}");
+                }
+            }
         }
     }
 
@@ -204,7 +210,7 @@ mod tests {
         let nan = Vec3::new(f32::NAN, 0.0, 0.0);
         let far = Vec3::splat(f32::MAX);
         let positions = [Vec3::ZERO, Vec3::X, Vec3::Y, nan, Vec3::INFINITY, far, -far];
-        let triangles = [[0, 0, 0], [0, 1, 1], [0, 1, 3], [0, 1, 4], [0, 1, 99], [5, 6, 5], [5, 6, 1], [0, 1, 2]];
+        let triangles = [[0, 0, 0], [0, 1, 1], [0, 1, 3], [0, 1, 4], [0, 1, 99], [5, 6, 5], [5, 6, 6], [0, 1, 2]];
         let mut bvh = Bvh::new(&positions, &triangles);
         bvh.refit(&positions, &triangles);
         let ray = Ray { origin: Vec3::new(0.2, 0.2, 1.0), direction: -Vec3::Z };
