@@ -9,6 +9,8 @@
 //!
 //! Vertices with r = 1 keep no runs; their spokes are at hand anyway.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use rayon::prelude::*;
 
 use crate::analysis::{Analysis, Layout};
@@ -17,6 +19,10 @@ use crate::{Rigidity, SolveError};
 
 /// Vertices that share one search memory.
 const BATCH: usize = 256;
+
+/// More runs than this are refused: with their transpose and the copy while they are put together they take 6 GB, and
+/// twice their number still fits 32 bits. A million vertices with r = 10 have a fifth of it.
+const MOST_RUNS: usize = 1 << 28;
 
 /// N(k, r_k) of every vertex. Made in parallel; O(Σ |N(k, r_k)|) time, memory 8 bytes per run and 8 per vertex.
 pub struct Neighborhoods {
@@ -32,24 +38,43 @@ impl Neighborhoods {
     /// Searches around every vertex with r > 1.
     ///
     /// # Errors
-    /// [`SolveError::WrongLength`] unless there is one size per vertex; [`SolveError::TooLarge`] beyond 2³² runs.
+    /// [`SolveError::WrongLength`] unless there is one size per vertex; [`SolveError::TooLarge`] beyond 2²⁸
+    /// runs, as where r exceeds the diameter of a very large mesh.
     pub fn new(analysis: &Analysis, rigidity: &Rigidity) -> Result<Neighborhoods, SolveError> {
         let r = internal_sizes(analysis, rigidity)?;
-        let all: Vec<u32> = (0..r.len() as u32).collect();
-        let found = search(&analysis.layout, &r, &all);
-        let mut neighborhoods = Neighborhoods { r, offsets: Vec::new(), runs: Vec::new() };
-        neighborhoods.replace(&all, &found)?;
-        Ok(neighborhoods)
+        Neighborhoods { offsets: vec![0; r.len() + 1], r: vec![1; r.len()], runs: Vec::new() }.with_sizes(analysis, r)
     }
 
-    /// The same for other sizes: only vertices whose size differs are searched from.
+    /// The same for other sizes: only vertices whose size differs are searched from, and the runs of the others are
+    /// copied once, O(runs).
     pub(crate) fn updated(&self, analysis: &Analysis, rigidity: &Rigidity) -> Result<Neighborhoods, SolveError> {
+        self.with_sizes(analysis, internal_sizes(analysis, rigidity)?)
+    }
+
+    /// As [`Neighborhoods::updated`]; the very same if no size differs.
+    pub(crate) fn into_updated(self, analysis: &Analysis, rigidity: &Rigidity) -> Result<Neighborhoods, SolveError> {
         let r = internal_sizes(analysis, rigidity)?;
-        let changed: Vec<u32> = (0..r.len() as u32).filter(|&k| r[k as usize] != self.r[k as usize]).collect();
-        let found = search(&analysis.layout, &r, &changed);
-        let mut next = Neighborhoods { r, offsets: self.offsets.clone(), runs: self.runs.clone() };
-        next.replace(&changed, &found)?;
-        Ok(next)
+        if r == self.r { Ok(self) } else { self.with_sizes(analysis, r) }
+    }
+
+    fn with_sizes(&self, analysis: &Analysis, r: Vec<u16>) -> Result<Neighborhoods, SolveError> {
+        let (changed, kept): (Vec<u32>, Vec<u32>) =
+            (0..r.len() as u32).partition(|&k| r[k as usize] != self.r[k as usize]);
+        let n_kept = kept.iter().map(|&k| self.runs(k as usize).len()).sum::<usize>();
+        let found = search(&analysis.layout, &r, &changed, MOST_RUNS.saturating_sub(n_kept))?;
+        let n_found = found.iter().map(|batch| batch.runs.len()).sum::<usize>();
+        let mut fresh = changed.iter().copied().zip(found.iter().flat_map(Batch::each)).peekable();
+        let mut offsets = Vec::with_capacity(r.len() + 1);
+        let mut runs = Vec::with_capacity(n_kept + n_found);
+        offsets.push(0);
+        for k in 0..r.len() {
+            match fresh.next_if(|(changed, _)| *changed as usize == k) {
+                Some((_, found)) => runs.extend_from_slice(found),
+                None => runs.extend_from_slice(self.runs(k)),
+            }
+            offsets.push(runs.len() as u32);
+        }
+        Ok(Neighborhoods { r, offsets, runs })
     }
 
     /// Runs of vertex `k`.
@@ -71,26 +96,6 @@ impl Neighborhoods {
             let block = block_of_slot(layout, from);
             (from as usize - block..to as usize - block).for_each(&mut f);
         }
-    }
-
-    /// Puts the runs found for some vertices (ascending) in the place of what they had.
-    fn replace(&mut self, changed: &[u32], found: &[Batch]) -> Result<(), SolveError> {
-        let n = self.r.len();
-        let mut fresh = changed.iter().copied().zip(found.iter().flat_map(Batch::each)).peekable();
-        let mut offsets = Vec::with_capacity(n + 1);
-        let mut runs = Vec::new();
-        offsets.push(0);
-        for k in 0..n {
-            match fresh.next_if(|(changed, _)| *changed as usize == k) {
-                Some((_, found)) => runs.extend_from_slice(found),
-                None => runs.extend_from_slice(self.runs(k)),
-            }
-            offsets.push(
-                u32::try_from(runs.len()).map_err(|_| SolveError::TooLarge { what: "the set of neighborhoods" })?,
-            );
-        }
-        (self.offsets, self.runs) = (offsets, runs);
-        Ok(())
     }
 }
 
@@ -125,7 +130,9 @@ impl Batch {
     }
 }
 
-fn search(layout: &Layout, r: &[u16], sources: &[u32]) -> Vec<Batch> {
+/// The runs of every source; refused as soon as they are more than `most`, before they fill the memory.
+fn search(layout: &Layout, r: &[u16], sources: &[u32], most: usize) -> Result<Vec<Batch>, SolveError> {
+    let n_found = AtomicUsize::new(0);
     sources
         .par_chunks(BATCH)
         .map_init(
@@ -133,10 +140,15 @@ fn search(layout: &Layout, r: &[u16], sources: &[u32]) -> Vec<Batch> {
             |search, sources| {
                 let mut batch = Batch { ends: Vec::with_capacity(sources.len()), runs: Vec::new() };
                 for &k in sources {
+                    let before = batch.runs.len();
                     search.append_runs(k, r[k as usize], &mut batch.runs);
                     batch.ends.push(batch.runs.len());
+                    let more = batch.runs.len() - before;
+                    if n_found.fetch_add(more, Ordering::Relaxed) + more > most {
+                        return Err(SolveError::TooLarge { what: "the set of neighborhoods" });
+                    }
                 }
-                batch
+                Ok(batch)
             },
         )
         .collect()
@@ -192,5 +204,63 @@ impl<'a> Search<'a> {
                 first = cut;
             }
         });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::Weights;
+    use crate::test_support::{bumpy_sheet, mixed_rigidity, plain_neighborhood};
+    use crate::transpose::Transpose;
+
+    #[test]
+    fn every_edge_is_counted_as_often_as_a_plain_search_finds_it() {
+        let mesh = Arc::new(bumpy_sheet(23));
+        let (n, m) = (mesh.n_vertices(), mesh.n_edges());
+        let analysis = Analysis::new(mesh.clone(), Weights::Uniform);
+        let layout = &analysis.layout;
+        // The last goes far beyond the diameter.
+        for rigidity in [mixed_rigidity(n, 6), Rigidity::uniform(n, 1), Rigidity::uniform(n, 3), mixed_rigidity(n, 90)]
+        {
+            let neighborhoods = Neighborhoods::new(&analysis, &rigidity).expect("one size per vertex");
+            let counts = Transpose::new(layout, &neighborhoods).counts(layout, &neighborhoods.r);
+            let mut plain = vec![0.0; m];
+            for k in 0..n {
+                plain_neighborhood(&mesh, k as u32, rigidity.as_slice()[k]).iter().for_each(|&e| plain[e] += 1.0);
+            }
+            for (e, &[i, j]) in layout.edges.iter().enumerate() {
+                let [a, b] = [i, j].map(|v| layout.to_caller[v as usize]);
+                let place = mesh.edges().binary_search(&[a.min(b), a.max(b)]).expect("an edge of the mesh");
+                assert_eq!(counts[e], plain[place], "r to {}, edge {place} between {a} and {b}", rigidity.max());
+            }
+        }
+    }
+
+    #[test]
+    fn changed_sizes_give_the_runs_of_a_new_search() {
+        let mesh = Arc::new(bumpy_sheet(19));
+        let n = mesh.n_vertices();
+        let analysis = Analysis::new(mesh, Weights::Uniform);
+        let other = mixed_rigidity(n, 4);
+        let first = Neighborhoods::new(&analysis, &mixed_rigidity(n, 7)).expect("one size per vertex");
+        let updated = first.updated(&analysis, &other).expect("one size per vertex");
+        let fresh = Neighborhoods::new(&analysis, &other).expect("one size per vertex");
+        assert_eq!((updated.r, updated.offsets, updated.runs), (fresh.r, fresh.offsets, fresh.runs));
+    }
+
+    #[test]
+    fn more_runs_than_allowed_are_refused_while_searching() {
+        let mesh = Arc::new(bumpy_sheet(23));
+        let n = mesh.n_vertices();
+        let analysis = Analysis::new(mesh, Weights::Uniform);
+        let (r, all) = (vec![5; n], (0..n as u32).collect::<Vec<_>>());
+        let found = search(&analysis.layout, &r, &all, usize::MAX).expect("no limit");
+        let n_runs = found.iter().map(|batch| batch.runs.len()).sum::<usize>();
+        assert!(search(&analysis.layout, &r, &all, n_runs).is_ok());
+        let refused = search(&analysis.layout, &r, &all, n_runs - 1).err();
+        assert_eq!(refused, Some(SolveError::TooLarge { what: "the set of neighborhoods" }));
     }
 }

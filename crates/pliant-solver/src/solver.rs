@@ -76,8 +76,7 @@ impl Solver {
             let (got, expected) = (neighborhoods.r.len(), layout.n_vertices());
             return Err(SolveError::WrongLength { what: "neighborhoods", got, expected });
         }
-        // Nothing is searched for if the neighborhoods are those of `rigidity`.
-        let rings = Rings::new(layout, neighborhoods.updated(&analysis, rigidity)?);
+        let rings = Rings::new(layout, neighborhoods.into_updated(&analysis, rigidity)?);
         let held = Held::new(layout, held, &layout.rest, loose)?;
         let system = System::new(analysis.pattern.clone()).map_err(|error| explain(&analysis, error))?;
         let mut workspace = Workspace::new(layout);

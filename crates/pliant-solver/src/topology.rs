@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use crate::weights::unit_sides;
+
 /// Twice the area over the longest side squared below which a face counts as without area. Rounding of coordinates
 /// far from the origin gives 1e-13 or so.
 const FLAT: f64 = 1e-12;
@@ -105,7 +107,8 @@ pub(crate) fn count_defects(positions: &[DVec3], triangles: &[[u32; 3]], half_ed
 }
 
 /// Whether a triangle has a repeated corner or no area worth the name.
-fn is_flat([a, b, c]: [DVec3; 3]) -> bool {
-    let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a));
-    (b - a).cross(c - a).length() <= FLAT * longest
+fn is_flat(corners: [DVec3; 3]) -> bool {
+    let [a, b, c] = unit_sides(corners);
+    let longest = a.length_squared().max(b.length_squared()).max(c.length_squared());
+    a.cross(b).length() <= FLAT * longest
 }

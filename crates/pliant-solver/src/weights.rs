@@ -50,7 +50,7 @@ pub(crate) fn edge_weights(mesh: &Mesh, weights: Weights) -> Vec<f64> {
     }
 }
 
-/// Sums half of each face's cotangents over its edges; values that are not finite contribute nothing.
+/// Sums half of each face's cotangents (given its sides) over its edges; values that are not finite contribute nothing.
 fn summed(mesh: &Mesh, cotangents: impl Fn([DVec3; 3]) -> [f64; 3]) -> Vec<f64> {
     let mut w = vec![0.0; mesh.n_edges()];
     for &face in mesh.triangles() {
@@ -58,7 +58,7 @@ fn summed(mesh: &Mesh, cotangents: impl Fn([DVec3; 3]) -> [f64; 3]) -> Vec<f64> 
         if a == b || b == c || c == a {
             continue;
         }
-        let cot = cotangents(face.map(|v| mesh.positions()[v as usize]));
+        let cot = cotangents(unit_sides(face.map(|v| mesh.positions()[v as usize])));
         for (corner, cot) in cot.into_iter().enumerate() {
             let (i, j) = (face[(corner + 1) % 3], face[(corner + 2) % 3]);
             if cot.is_finite()
@@ -71,17 +71,26 @@ fn summed(mesh: &Mesh, cotangents: impl Fn([DVec3; 3]) -> [f64; 3]) -> Vec<f64> 
     w
 }
 
+/// The sides opposite to the corners of a face, one after the other around it, divided by the largest coordinate of
+/// any: products of lengths neither overflow nor vanish, whatever the unit.
+pub(crate) fn unit_sides(p: [DVec3; 3]) -> [DVec3; 3] {
+    let sides: [DVec3; 3] = std::array::from_fn(|corner| p[(corner + 2) % 3] - p[(corner + 1) % 3]);
+    let size = sides.iter().map(|s| s.abs().max_element()).fold(0.0, f64::max);
+    // By division: the reciprocal of a very small number overflows.
+    if size > 0.0 { sides.map(|s| s / size) } else { sides }
+}
+
 /// Cotangent of the angle at each corner; not finite for a face without area.
-fn raw_cotangents(p: [DVec3; 3]) -> [f64; 3] {
+fn raw_cotangents(sides: [DVec3; 3]) -> [f64; 3] {
     std::array::from_fn(|corner| {
-        let (u, v) = (p[(corner + 1) % 3] - p[corner], p[(corner + 2) % 3] - p[corner]);
+        let (u, v) = (sides[(corner + 2) % 3], -sides[(corner + 1) % 3]);
         u.dot(v) / u.cross(v).length()
     })
 }
 
 /// As [`raw_cotangents`], from lengthened sides where the face is nearly flat.
-fn tame_cotangents(p: [DVec3; 3]) -> [f64; 3] {
-    let side: [f64; 3] = std::array::from_fn(|corner| p[(corner + 1) % 3].distance(p[(corner + 2) % 3]));
+fn tame_cotangents(sides: [DVec3; 3]) -> [f64; 3] {
+    let side = sides.map(DVec3::length);
     let [a, b, c] = side;
     let longest = a.max(b).max(c);
     if longest == 0.0 {
@@ -90,7 +99,7 @@ fn tame_cotangents(p: [DVec3; 3]) -> [f64; 3] {
     }
     let lacking = MOLLIFY * longest - (a + b + c - 2.0 * longest);
     if lacking <= 0.0 {
-        return raw_cotangents(p);
+        return raw_cotangents(sides);
     }
     let [a, b, c] = side.map(|s| (s + lacking) / longest);
     let area = (0.25 * ((a + b + c) * (b + c - a) * (c + a - b) * (a + b - c)).max(0.0)).sqrt() * 0.5;
@@ -145,9 +154,9 @@ mod tests {
     #[test]
     fn mollified_and_exact_cotangents_agree_at_the_border() {
         // A face whose sides lack exactly nothing, and one that lacks a little: no jump between the two formulas.
-        let face = |h: f64| [DVec3::ZERO, DVec3::X, DVec3::new(0.5, h, 0.0)];
         let border = (0.5 * MOLLIFY * (0.5 * MOLLIFY + 1.0) * 0.25 * 4.0).sqrt() / 2f64.sqrt();
-        let (above, below) = (tame_cotangents(face(border * 1.001)), tame_cotangents(face(border * 0.999)));
+        let face = |factor: f64| unit_sides([DVec3::ZERO, DVec3::X, DVec3::new(0.5, border * factor, 0.0)]);
+        let (above, below) = (tame_cotangents(face(1.001)), tame_cotangents(face(0.999)));
         for corner in 0..3 {
             let jump = (above[corner] - below[corner]).abs() / above[corner].abs();
             assert!(jump < 0.01, "corner {corner}: {above:?} {below:?}");

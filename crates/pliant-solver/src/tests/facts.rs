@@ -200,7 +200,9 @@ fn moving_and_scaling_the_scene_moves_and_scales_the_answer() {
     };
     let plain = solve(&|p| p);
     // Far away, coordinates have only ten digits after the point left; strains of that size are amplified by the solve.
-    for (scale, shift, tolerance) in [(1e6, 0.0, 1e-9), (1e-6, 0.0, 1e-9), (1.0, 1e6, 1e-6)] {
+    for (scale, shift, tolerance) in
+        [(1e6, 0.0, 1e-9), (1e-6, 0.0, 1e-9), (1e90, 0.0, 1e-9), (1e-90, 0.0, 1e-9), (1.0, 1e6, 1e-6)]
+    {
         let shift = DVec3::splat(shift);
         let back: Vec<DVec3> = solve(&|p| p * scale + shift).iter().map(|&p| (p - shift) / scale).collect();
         let (vertex, distance) = farthest(&back, &plain);
