@@ -24,9 +24,10 @@ const CLOSEST_FRAME: f32 = 1.5;
 const DEPTH_RADII: f32 = 5.0;
 /// Closest visible depth as a part of the distance to the target. Depth is a reversed float, so small values cost nothing.
 const NEAR_PART: f32 = 0.01;
-/// An orthographic ray starts this many distances before the eye, so that what lies between is hit too. More would
-/// cost precision: an f32 origin is rounded by 6e-8 of its length, here about a hundredth of a pixel.
-const ORTHOGRAPHIC_RAY_START: f32 = 200.0;
+/// Where the orthographic view begins, in distances from the target towards the viewer: room for all of a model until one
+/// zooms in more than a hundredfold. More would cost precision: the f32 origin of a ray from there is rounded by 6e-8 of
+/// its length, here about a hundredth of a pixel.
+const ORTHOGRAPHIC_START: f32 = 200.0;
 /// Distances stay inside the range in which squares of them are normal f32 numbers.
 const DISTANCES: (f32, f32) = (1e-12, 1e15);
 
@@ -150,7 +151,7 @@ impl Camera {
     }
 
     /// World to clip space (y up, depth 1 at the near and 0 at the far end), for a viewport of this size. The depth range is
-    /// fitted to the bounds and the ground around them.
+    /// fitted to the bounds and the ground around them. Nothing is drawn before the point where [`Camera::ray`] starts.
     pub fn clip_from_world(&self, size: Vec2, bounds: (Vec3, Vec3)) -> Mat4 {
         self.clip_from_view(size, bounds) * self.view_from_world()
     }
@@ -170,13 +171,16 @@ impl Camera {
         // Near and far are handed over in exchanged places: that reverses depth, which keeps f32 precision in the distance.
         match self.projection {
             Projection::Perspective => {
-                let near = (depth - reach).max(self.distance * NEAR_PART);
+                let near = (depth - reach).max(self.closest_depth());
                 let far = (depth + reach).max(near * 2.0);
                 directx::perspective(2.0 * half.y.atan(), half.x / half.y, far, near)
             }
             Projection::Orthographic => {
                 let half = half * self.distance;
-                directx::orthographic(-half.x, half.x, -half.y, half.y, depth + reach, depth - reach)
+                let near = (depth - reach).max(self.closest_depth());
+                // A model wholly nearer than that leaves an empty picture, but still a range.
+                let far = if depth + reach > near { depth + reach } else { near + self.distance };
+                directx::orthographic(-half.x, half.x, -half.y, half.y, far, near)
             }
         }
     }
@@ -201,18 +205,24 @@ impl Camera {
         self.target - self.forward() * self.distance
     }
 
-    /// The ray under a pixel, with unit direction. It starts at the eye, or well before it in the orthographic view.
+    /// The ray under a pixel, with unit direction. It starts where the picture begins, so that it meets nothing that is not
+    /// drawn: a little in front of the eye, or far behind it in the orthographic view.
     pub fn ray(&self, px: Vec2, size: Vec2) -> Ray {
         let at_target = self.target + self.drag_in_view_plane(self.target, px - size * 0.5, size);
+        let direction = match self.projection {
+            Projection::Perspective => at_target - self.eye(),
+            Projection::Orthographic => self.forward() * self.distance,
+        };
+        // `direction` leads from the eye's depth to the target's; this part of it from the picture's beginning.
+        let part = 1.0 - self.closest_depth() / self.distance;
+        Ray { origin: at_target - direction * part, direction: direction.normalize_or(self.forward()) }
+    }
+
+    /// Depth at which the picture begins at the earliest, along `forward` from the eye.
+    fn closest_depth(&self) -> f32 {
         match self.projection {
-            Projection::Perspective => {
-                let origin = self.eye();
-                Ray { origin, direction: (at_target - origin).normalize_or(self.forward()) }
-            }
-            Projection::Orthographic => {
-                let direction = self.forward();
-                Ray { origin: at_target - direction * (self.distance * ORTHOGRAPHIC_RAY_START), direction }
-            }
+            Projection::Perspective => self.distance * NEAR_PART,
+            Projection::Orthographic => self.distance * (1.0 - ORTHOGRAPHIC_START),
         }
     }
 

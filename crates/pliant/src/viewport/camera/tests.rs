@@ -49,6 +49,31 @@ fn ray_and_project_are_inverses() {
 }
 
 #[test]
+fn rays_start_where_the_picture_begins() {
+    for camera in SCENES.into_iter().flat_map(cameras) {
+        // A model so large, against the distance, that the picture cannot hold all of it: one has zoomed in.
+        let half = camera.distance * 1e3;
+        let clip = camera.clip_from_world(SIZE, (camera.target - half, camera.target + half));
+        for px in [SIZE * 0.5, Vec2::new(17.0, 600.0), SIZE] {
+            let ray = camera.ray(px, SIZE);
+            // In camera depths; a thousandth is far more than the rounding of a ray from 200 distances away.
+            let step = (ray.origin - camera.eye()).dot(camera.forward()).abs() * 1e-3;
+            let depth = |along: f32| clip.project_point3(ray.origin + ray.direction * along).z;
+            assert!(depth(2.0 * step) <= 1.0, "the ray starts too early: {} at {px}, {camera:?}", depth(2.0 * step));
+            assert!(depth(-2.0 * step) > 1.0, "the ray starts too late: {} at {px}, {camera:?}", depth(-2.0 * step));
+        }
+    }
+}
+
+#[test]
+fn a_model_nearer_than_the_orthographic_view_leaves_a_depth_range() {
+    let mut camera = Camera::framing(Vec3::NEG_ONE, Vec3::ONE);
+    camera.projection = Projection::Orthographic;
+    camera.target += camera.forward() * camera.distance * 1e4;
+    assert!(camera.clip_from_world(SIZE, (Vec3::NEG_ONE, Vec3::ONE)).is_finite(), "{camera:?}");
+}
+
+#[test]
 fn the_matrix_agrees_with_project() {
     for camera in SCENES.into_iter().flat_map(cameras) {
         let scale = camera.distance;
