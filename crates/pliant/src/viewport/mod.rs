@@ -20,6 +20,8 @@ mod ramp;
 mod renderer;
 mod scene;
 mod shaders;
+#[cfg(test)]
+mod test_scenes;
 
 pub use camera::{Axis, Camera, Projection};
 pub use headless::{DeviceWatch, GpuError, Headless, watch_device};

@@ -16,7 +16,7 @@ pub(super) struct Surface {
     colors: Stream,
     chunks: Vec<Chunk>,
     /// Unique edges, only where the wireframe program is not to be had.
-    edges: Option<Chunk>,
+    edges: Vec<Chunk>,
     largest_chunk: u64,
     largest_binding: u64,
     mixed: Vec<[u8; 4]>,
@@ -42,7 +42,7 @@ impl Surface {
             normals: Stream::new("normals", usage),
             colors: Stream::new("colors", usage),
             chunks: Vec::new(),
-            edges: None,
+            edges: Vec::new(),
             largest_chunk: match largest_binding {
                 0 => limits.max_buffer_size,
                 binding => binding.min(limits.max_buffer_size),
@@ -65,7 +65,7 @@ impl Surface {
         let mut rebind = false;
         if !same_mesh {
             self.chunks = self.upload_corners(device, queue, bytemuck::cast_slice(&scene.triangles));
-            self.edges = None;
+            self.edges.clear();
             rebind = true;
         }
         if !same_frame {
@@ -79,10 +79,10 @@ impl Surface {
             self.bind(device, layouts);
         }
         let needs_edges =
-            scene.wireframe && self.edges.is_none() && self.chunks.iter().any(|chunk| chunk.fetch.is_none());
+            scene.wireframe && self.edges.is_empty() && self.chunks.iter().any(|chunk| chunk.fetch.is_none());
         if needs_edges {
             let edges = unique_edges(&scene.triangles);
-            self.edges = self.upload_corners(device, queue, bytemuck::cast_slice(&edges)).into_iter().next();
+            self.edges = self.upload_corners(device, queue, bytemuck::cast_slice(&edges));
         }
         self.shown = Some(scene.clone());
     }
@@ -110,9 +110,9 @@ impl Surface {
             pass.set_vertex_buffer(slot, buffer.slice(..));
         }
         self.chunks.iter().for_each(|chunk| chunk.draw_indexed(pass));
-        if let (true, Some(edges)) = (wireframe, &self.edges) {
+        if wireframe && !self.edges.is_empty() {
             pass.set_pipeline(&pipelines.edges);
-            edges.draw_indexed(pass);
+            self.edges.iter().for_each(|chunk| chunk.draw_indexed(pass));
         }
     }
 

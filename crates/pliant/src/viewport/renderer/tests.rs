@@ -1,6 +1,7 @@
 //! How the renderer gets by on devices that can do less.
 
-use super::super::{Camera, Coloring, Headless, Shading, SurfaceFrame, Theme};
+use super::super::test_scenes::sheet;
+use super::super::{Camera, Headless, SurfaceFrame};
 use super::*;
 use glam::Vec3;
 use std::sync::Arc;
@@ -8,43 +9,6 @@ use std::sync::Arc;
 const SIZE: [u32; 2] = [120, 90];
 /// Cells along a side of the test sheet: 2 · 40² triangles, 38,400 bytes of corners.
 const CELLS: u32 = 40;
-
-/// A flat sheet across the view, seen from the front, with edges.
-fn sheet() -> ViewScene {
-    let row = CELLS + 1;
-    let place = |i: u32| i as f32 / CELLS as f32 * 2.0 - 1.0;
-    let positions: Vec<Vec3> = (0..row * row).map(|i| Vec3::new(place(i % row), place(i / row), 0.0)).collect();
-    let triangles: Arc<[[u32; 3]]> = (0..CELLS * CELLS)
-        .flat_map(|cell| {
-            let a = cell / CELLS * row + cell % CELLS;
-            [[a, a + 1, a + row + 1], [a, a + row + 1, a + row]]
-        })
-        .collect();
-    let bounds = (Vec3::new(-1.0, -1.0, 0.0), Vec3::new(1.0, 1.0, 0.0));
-    let mut camera = Camera::framing(bounds.0, bounds.1);
-    camera.look_along(super::super::Axis::Front);
-    camera.frame(bounds.0, bounds.1);
-    ViewScene {
-        triangles,
-        rigidity: Arc::new([]),
-        frame: Arc::new(SurfaceFrame { normals: vec![Vec3::Z; positions.len()], positions }),
-        values: None,
-        selected: None,
-        base_colors: None,
-        dots: Arc::new([]),
-        lines: Arc::new([]),
-        coloring: Coloring::Plain,
-        ramp_max: 6,
-        color_opacity: 1.0,
-        shading: Shading::Smooth,
-        wireframe: false,
-        grid: false,
-        theme: Theme::Light,
-        camera,
-        bounds,
-        pixels_per_point: 1.0,
-    }
-}
 
 /// A device with these limits and a picture drawn on it; nothing may have been complained about.
 fn drawn_within(limits: wgpu::Limits, scene: &ViewScene) -> image::RgbaImage {
@@ -65,7 +29,7 @@ fn n_dark(picture: &image::RgbaImage) -> usize {
 #[test]
 fn edges_are_lines_where_vertices_cannot_be_fetched() {
     let webgl = wgpu::Limits { max_texture_dimension_2d: 1024, ..wgpu::Limits::downlevel_webgl2_defaults() };
-    let mut scene = sheet();
+    let mut scene = sheet(CELLS);
     // Only some triangles, so that edges are apart.
     scene.triangles = scene.triangles.iter().copied().step_by(9).collect();
     let plain = drawn_within(webgl.clone(), &scene);
@@ -76,8 +40,19 @@ fn edges_are_lines_where_vertices_cannot_be_fetched() {
 }
 
 #[test]
+fn edges_beyond_one_buffer_are_all_lines() {
+    // 2 · 48² triangles: 56,064 bytes of edges.
+    let scene = ViewScene { wireframe: true, ..sheet(48) };
+    let webgl = wgpu::Limits { max_texture_dimension_2d: 1024, ..wgpu::Limits::downlevel_webgl2_defaults() };
+    let whole = drawn_within(webgl.clone(), &scene);
+    let parts = drawn_within(wgpu::Limits { max_buffer_size: 46_080, ..webgl }, &scene);
+    let differing = parts.pixels().zip(whole.pixels()).filter(|(a, b)| a != b).count();
+    assert_eq!(differing, 0);
+}
+
+#[test]
 fn meshes_beyond_one_buffer_are_drawn_in_parts() {
-    let scene = sheet();
+    let scene = sheet(CELLS);
     let whole = drawn_within(wgpu::Limits::defaults(), &scene);
     // Room for the picture read back (120 x 90 in rows of 512 bytes), but not for all corners.
     let small =
@@ -97,7 +72,7 @@ fn meshes_beyond_the_device_leave_the_background() {
         wgpu::Limits { max_buffer_size: 16_384, max_storage_buffer_binding_size: 16_384, ..wgpu::Limits::defaults() };
     let headless = Headless::with_limits(tiny).expect("any adapter; `apt-get install mesa-vulkan-drivers`");
     let mut renderer = Renderer::new(&headless.device, &headless.queue, 1);
-    renderer.render(&sheet(), [16, 16]);
+    renderer.render(&sheet(CELLS), [16, 16]);
     let picture = renderer.try_read_pixels().expect("the picture can be read");
     assert_eq!(headless.take_error(), None, "the device complained");
     assert_eq!(n_dark(&picture), 0, "only the light background");
@@ -107,7 +82,7 @@ fn meshes_beyond_the_device_leave_the_background() {
 fn the_ground_rests_while_the_surface_moves() {
     let headless = Headless::new().unwrap_or_else(|error| panic!("{error}"));
     let mut renderer = Renderer::new(&headless.device, &headless.queue, 1);
-    let mut scene = ViewScene { grid: true, ..sheet() };
+    let mut scene = ViewScene { grid: true, ..sheet(CELLS) };
     scene.camera = Camera::framing(scene.bounds.0, scene.bounds.1);
     let mut ground_with = |scene: &ViewScene| {
         renderer.render(scene, SIZE);
