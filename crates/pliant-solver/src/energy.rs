@@ -26,11 +26,41 @@ use crate::sums::inner;
 /// Below this fraction of Σ d w (‖e'‖² + ‖e‖²) the difference keeps less than nine digits: it loses seven of the
 /// sixteen, and the sums themselves are good to fifteen or so.
 pub(crate) const DIRECT_BELOW: f64 = 1e-6;
-/// Below this many unit roundoffs of the same sum the energy is that of rounded coordinates, and counts as 0: a strain
-/// of 6e-8.
-pub(crate) const ZERO_BELOW: f64 = 16.0 * f64::EPSILON;
+/// Below this many unit roundoffs of Σ |d w| (‖e'‖² + ‖e‖²) the energy is that of rounding, and counts as 0: a strain of
+/// 6e-8.
+const ZERO_BELOW: f64 = 16.0 * f64::EPSILON;
 /// A rise of up to this many unit roundoffs of the same sum is rounding, not a rise.
-pub(crate) const NOISE: f64 = 64.0 * f64::EPSILON;
+const NOISE: f64 = 64.0 * f64::EPSILON;
+
+/// Edges are off by this many unit roundoffs of the largest coordinate, since their ends are rounded: three coordinates
+/// of two ends, half a unit each, now and at rest.
+const EDGE_ROUNDING: f64 = 4.0 * f64::EPSILON;
+
+/// What of an energy may be rounding.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Noise {
+    /// Σ |d w| (‖e'‖² + ‖e‖²).
+    pub(crate) sums: f64,
+    /// Σ |d w| ‖ε‖², with ε the rounding of an edge: what counts far from the origin.
+    pub(crate) coordinates: f64,
+}
+
+impl Noise {
+    pub(crate) fn new(sums: f64, total_stiffness: f64, largest_coordinate: f64) -> Noise {
+        let rounding = EDGE_ROUNDING * largest_coordinate;
+        Noise { sums, coordinates: total_stiffness * rounding * rounding }
+    }
+
+    /// The energy up to which there may be none.
+    pub(crate) fn floor(&self) -> f64 {
+        ZERO_BELOW * self.sums + self.coordinates
+    }
+
+    /// By how much a given energy may seem to rise. Edges that are off by ε change ‖x‖² by 2 x·ε + ‖ε‖².
+    pub(crate) fn rise(&self, energy: f64) -> f64 {
+        NOISE * self.sums + 2.0 * (energy.abs() * self.coordinates).sqrt() + self.coordinates
+    }
+}
 
 /// Neighborhoods of up to this many edges per edge of the mesh are summed directly as fast as from frames (r = 1 has 2,
 /// r = 2 about 10).

@@ -3,7 +3,7 @@
 use glam::{DMat3, DQuat, DVec3};
 
 use crate::analysis::Layout;
-use crate::energy::{DIRECT_BELOW, FEW_EDGES, ZERO_BELOW, component_frames, framed_terms, vertex_energies};
+use crate::energy::{DIRECT_BELOW, FEW_EDGES, Noise, component_frames, framed_terms, vertex_energies};
 use crate::neighborhoods::Neighborhoods;
 use crate::parallel::{CHUNK, chunks, chunks_summed};
 use crate::rotations::{Ties, best_rotation};
@@ -41,6 +41,10 @@ pub(crate) struct Rings {
     pub(crate) transpose: Transpose,
     /// d_e w_e.
     pub(crate) stiffness: Vec<f64>,
+    /// Σ |d_e w_e|.
+    total_stiffness: f64,
+    /// Whether any weight is negative, as raw ones may be.
+    has_negative: bool,
     /// C_k = Σ_{e ∈ N(k)} w_e e eᵀ; empty where a small energy is summed directly.
     moments: Vec<DMat3>,
 }
@@ -49,10 +53,12 @@ impl Rings {
     pub(crate) fn new(layout: &Layout, neighborhoods: Neighborhoods) -> Rings {
         let transpose = Transpose::new(layout, &neighborhoods);
         let counts = transpose.counts(layout, &neighborhoods.r);
-        let stiffness = counts.iter().zip(&layout.weight).map(|(d, w)| d * w).collect();
+        let stiffness: Vec<f64> = counts.iter().zip(&layout.weight).map(|(d, w)| d * w).collect();
         let is_large = counts.iter().sum::<f64>() > FEW_EDGES * layout.n_edges() as f64;
         let moments = if is_large { moments(layout, &neighborhoods) } else { Vec::new() };
-        Rings { neighborhoods, transpose, stiffness, moments }
+        let total_stiffness = stiffness.iter().map(|s| s.abs()).sum();
+        let has_negative = stiffness.iter().any(|&s| s < 0.0);
+        Rings { neighborhoods, transpose, stiffness, total_stiffness, has_negative, moments }
     }
 }
 
@@ -68,6 +74,19 @@ fn moments(layout: &Layout, neighborhoods: &Neighborhoods) -> Vec<DMat3> {
     moments
 }
 
+/// `scale` is Σ d w (‖e'‖² + ‖e‖²).
+fn noise_of(layout: &Layout, rings: &Rings, (positions, edge_now): (&[DVec3], &[DVec3]), scale: f64) -> Noise {
+    let sums = if rings.has_negative {
+        let squares =
+            edge_now.iter().zip(&layout.edge_rest).map(|(now, rest)| now.length_squared() + rest.length_squared());
+        rings.stiffness.iter().zip(squares).map(|(s, squares)| s.abs() * squares).sum()
+    } else {
+        scale
+    };
+    let largest = positions.iter().fold(DVec3::ZERO, |most, p| most.max(p.abs())).max_element();
+    Noise::new(sums, rings.total_stiffness, largest)
+}
+
 /// First slot of every block.
 fn slot_bounds(layout: &Layout) -> Vec<u32> {
     layout.blocks.iter().enumerate().map(|(block, &edge)| edge + block as u32).collect()
@@ -78,8 +97,7 @@ fn slot_bounds(layout: &Layout) -> Vec<u32> {
 pub(crate) struct LocalOutcome {
     /// Eq. (1).
     pub(crate) energy: f64,
-    /// Σ d w (‖e'‖² + ‖e‖²): what rounding is measured against.
-    pub(crate) scale: f64,
+    pub(crate) noise: Noise,
 }
 
 /// Memory of the half steps, reserved once.
@@ -156,6 +174,7 @@ impl Workspace {
     pub(crate) fn local(&mut self, layout: &Layout, rings: &Rings, pose: &mut Pose, ties: Ties) -> LocalOutcome {
         let Workspace { edge_now, prefix, slot_bounds, partial, .. } = self;
         let scale = edge_vectors(layout, &rings.stiffness, &pose.positions, edge_now, partial);
+        let noise = noise_of(layout, rings, (&pose.positions, edge_now), scale);
         if !prefix.is_empty() {
             prefix_sums(layout, slot_bounds, edge_now, prefix);
         }
@@ -171,20 +190,20 @@ impl Workspace {
         });
         let mut energy = scale - 2.0 * gain;
         if energy.abs() < DIRECT_BELOW * scale.abs() {
-            energy = self.small_energy(layout, rings, pose, scale);
+            energy = self.small_energy(layout, rings, pose, noise);
         }
-        LocalOutcome { energy, scale }
+        LocalOutcome { energy, noise }
     }
 
     /// Eq. (1) where the difference of large sums says too little; `edge_now` are those of the pose.
-    fn small_energy(&mut self, layout: &Layout, rings: &Rings, pose: &Pose, scale: f64) -> f64 {
+    fn small_energy(&mut self, layout: &Layout, rings: &Rings, pose: &Pose, noise: Noise) -> f64 {
         if rings.moments.is_empty() {
             return self.direct_energy(layout, rings, pose);
         }
         let (energy, size) = self.framed_energy(layout, rings, pose);
         // What will count as 0 needs no digits.
         let uncertain = DIRECT_BELOW * size;
-        if energy.abs() >= uncertain || uncertain <= ZERO_BELOW * scale.abs() {
+        if energy.abs() >= uncertain || uncertain <= noise.floor() {
             energy
         } else {
             self.direct_energy(layout, rings, pose)

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DMat3, DVec3};
 
 use crate::analysis::Analysis;
-use crate::energy::{NOISE, ZERO_BELOW, vertex_energies};
+use crate::energy::vertex_energies;
 use crate::held::Held;
 use crate::iteration::{LocalOutcome, Pose, Rings, Workspace};
 use crate::mesh::is_usable;
@@ -205,15 +205,14 @@ impl Solver {
     /// The best rotations for the current positions (3.2.2), and the energy.
     pub fn local_step(&mut self) -> StepReport {
         let ties = if self.from_rest { Ties::Rounding } else { Ties::Nudged };
-        let LocalOutcome { mut energy, scale } =
+        let LocalOutcome { mut energy, noise } =
             self.workspace.local(&self.analysis.layout, &self.rings, &mut self.pose, ties);
-        let noise = scale.abs();
-        if energy.abs() <= ZERO_BELOW * noise {
+        if energy.abs() <= noise.floor() {
             energy = 0.0;
         }
         let relative_decrease = match self.comparable {
             Some(before) => {
-                if energy > before && energy - before <= NOISE * noise {
+                if energy > before && energy - before <= noise.rise(before) {
                     energy = before;
                 }
                 if before == 0.0 { 0.0 } else { (before - energy) / before.abs() }
