@@ -32,7 +32,7 @@ pub struct StepReport {
 /// | `new` | assembles and factors |
 /// | `set_rigidity` | neighborhoods of changed vertices, numeric refactor, one local step |
 /// | `set_held` | numeric refactor |
-/// | `set_targets` | copies; nothing is factored |
+/// | `set_targets` | copies; a rigid fit per group if loose components follow |
 /// | `set_pose` | copies; one local step |
 /// | `start` | `Keep`, `Rest`: copies; `Auto`: up to twelve iterations and one solve |
 /// | `step` | one local/global iteration; no factorization, no allocation |
@@ -140,7 +140,7 @@ impl Solver {
     /// # Errors
     /// [`SolveError::WrongLength`], `TargetNotFinite`. On error the solver is as it was.
     pub fn set_targets(&mut self, targets: &[DVec3]) -> Result<(), SolveError> {
-        self.held.set_targets(targets)?;
+        self.held.set_targets(&self.analysis.layout.rest, targets)?;
         self.comparable = None;
         Ok(())
     }

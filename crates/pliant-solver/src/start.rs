@@ -69,15 +69,15 @@ impl Solver {
     /// For every vertex the rotation that fits the held vertices of its component; the identity in loose components.
     fn component_turns(&self) -> Vec<DQuat> {
         let layout = &self.analysis.layout;
-        let everywhere = self.held.motion_of(&layout.rest, DQuat::IDENTITY, |_| true).rotation;
+        let everywhere = self.held.motion_of_all(&layout.rest).rotation;
         let mut turns = vec![DQuat::IDENTITY; layout.n_vertices()];
         let mut first = 0;
         for members in layout.component.chunk_by(|a, b| a == b) {
             let vertices = first..first + members.len();
             first = vertices.end;
-            let is_here = |i: usize| vertices.contains(&(self.held.internal[i] as usize));
-            if (0..self.held.internal.len()).any(is_here) {
-                turns[vertices.clone()].fill(self.held.motion_of(&layout.rest, everywhere, is_here).rotation);
+            let here = self.held.by_component.list(members[0] as usize);
+            if !here.is_empty() {
+                turns[vertices].fill(self.held.motion_of(&layout.rest, everywhere, here).rotation);
             }
         }
         turns
@@ -85,34 +85,31 @@ impl Solver {
 
     /// Rotations between those of the groups; none if there is only one group.
     fn blended_turns(&mut self, rigid: &[DQuat]) -> Option<Vec<DQuat>> {
-        if self.held.n_groups < 2 {
+        let (held, n_groups) = (&self.held, self.held.by_group.len());
+        if n_groups < 2 {
             return None;
         }
         let analysis = self.analysis.clone();
         let layout = &analysis.layout;
-        let mut sizes = vec![0usize; self.held.n_groups];
-        self.held.group.iter().for_each(|&group| sizes[group as usize] += 1);
-        // Group by group: a vertex of it, for its component.
-        let mut member = vec![0usize; self.held.n_groups];
-        for (i, &group) in self.held.group.iter().enumerate() {
-            member[group as usize] = self.held.internal[i] as usize;
-        }
-        let turns: Vec<DQuat> = (0..self.held.n_groups)
-            .map(|group| self.held.group_motion(group as u32, &layout.rest, rigid[member[group]]).rotation)
+        // A vertex of each group, for its component.
+        let member: Vec<usize> =
+            (0..n_groups).map(|group| held.internal[held.by_group.list(group)[0] as usize] as usize).collect();
+        let turns: Vec<DQuat> = (0..n_groups)
+            .map(|group| held.motion_of(&layout.rest, rigid[member[group]], held.by_group.list(group)).rotation)
             .collect();
         // The largest group of each component, the first of equals.
-        let n_components = layout.component.iter().max().map_or(0, |&last| last as usize + 1);
-        let mut largest: Vec<Option<usize>> = vec![None; n_components];
-        for group in 0..self.held.n_groups {
+        let size = |group: usize| held.by_group.list(group).len();
+        let mut largest: Vec<Option<usize>> = vec![None; held.by_component.len()];
+        for group in 0..n_groups {
             let largest = &mut largest[layout.component[member[group]] as usize];
-            if largest.is_none_or(|other| sizes[group] > sizes[other]) {
+            if largest.is_none_or(|other| size(group) > size(other)) {
                 *largest = Some(group);
             }
         }
         let reference = |v: usize| largest[layout.component[v] as usize].map_or(DQuat::IDENTITY, |g| turns[g]);
         let mut logarithms = vec![DVec3::ZERO; layout.n_vertices()];
-        for (i, &v) in self.held.internal.iter().enumerate() {
-            let relative = reference(v as usize).conjugate() * turns[self.held.group[i] as usize];
+        for (i, &v) in held.internal.iter().enumerate() {
+            let relative = reference(v as usize).conjugate() * turns[held.group[i] as usize];
             logarithms[v as usize] = logarithm(relative);
         }
         self.spread(&mut logarithms);
