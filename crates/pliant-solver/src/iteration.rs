@@ -12,13 +12,26 @@ use crate::system::System;
 use crate::transpose::Transpose;
 
 /// p' and R of every vertex, internal numbering.
-#[derive(Clone)]
 pub(crate) struct Pose {
     pub(crate) positions: Vec<DVec3>,
     /// R_k as matrices, kept equal to `turns`.
     pub(crate) rotations: Vec<DMat3>,
     /// R_k as unit quaternions.
     pub(crate) turns: Vec<DQuat>,
+}
+
+impl Clone for Pose {
+    fn clone(&self) -> Pose {
+        let Pose { positions, rotations, turns } = self;
+        Pose { positions: positions.clone(), rotations: rotations.clone(), turns: turns.clone() }
+    }
+
+    /// Into the same memory, which a derived one would not use.
+    fn clone_from(&mut self, other: &Pose) {
+        self.positions.clone_from(&other.positions);
+        self.rotations.clone_from(&other.rotations);
+        self.turns.clone_from(&other.turns);
+    }
 }
 
 impl Pose {

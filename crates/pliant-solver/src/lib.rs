@@ -103,7 +103,7 @@ mod weights;
 pub use analysis::Analysis;
 pub use error::{MeshError, RigidityError, SolveError};
 pub use held::LooseComponents;
-pub use ids::{ComponentId, EdgeId, FaceId, VertexId};
+pub use ids::VertexId;
 pub use mesh::{LARGEST_COORDINATE, Mesh};
 pub use neighborhoods::Neighborhoods;
 pub use rigidity::Rigidity;

@@ -21,7 +21,8 @@ pub struct StepReport {
     /// Iterations since the last [`Solver::start`].
     pub iteration: u64,
     /// (E before − E after) / |E before| (3.2.3); 0 when E before = 0. The first iteration after a change of targets, held
-    /// vertices, rigidity, pose or start has nothing to compare with and reports 1, or 0 when E = 0.
+    /// vertices, rigidity, pose or start has nothing to compare with and reports 1, or 0 when E = 0. The first iteration
+    /// after [`Start::Auto`] is compared with the trial iterations of the candidate that won.
     pub relative_decrease: f64,
 }
 
@@ -33,7 +34,7 @@ pub struct StepReport {
 /// | `set_rigidity` | neighborhoods of changed vertices, numeric refactor, one local step |
 /// | `set_held` | numeric refactor |
 /// | `set_targets` | copies; a rigid fit per group if loose components follow |
-/// | `set_pose` | copies; one local step |
+/// | `set_pose` | copies; one local step, with a full search for the best rotation where vertices turned far |
 /// | `start` | `Keep`, `Rest`: copies; `Auto`: up to twelve iterations and one solve |
 /// | `step` | one local/global iteration; no factorization, no allocation |
 ///

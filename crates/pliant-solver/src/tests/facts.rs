@@ -61,6 +61,40 @@ fn one_rigid_motion_is_found(shift: DVec3, tolerance: f64) {
 }
 
 #[test]
+fn a_rigid_motion_of_everything_is_kept_as_it_is() {
+    let mesh = bumpy_sheet(15);
+    let rest = mesh.positions().to_vec();
+    let held = [VertexId(0), VertexId(50), VertexId(99), VertexId(200)];
+    let turn = DQuat::from_axis_angle(DVec3::new(1.0, -2.0, 0.5).normalize(), 2.9);
+    let moved: Vec<DVec3> = rest.iter().map(|&p| turn * p + DVec3::new(30.0, -5.0, 8.0)).collect();
+    let mut solver = solver(mesh, Weights::Clamped, &mixed_rigidity(rest.len(), 4), &held);
+    solver.set_pose(&moved).expect("finite");
+    solver.set_targets(&held.map(|v| moved[v.index()])).expect("finite");
+    solver.start(Start::Keep);
+    for step in 0..20 {
+        assert_eq!(solver.step().energy, 0.0, "step {step}");
+        let (vertex, distance) = farthest(&solver.positions(), &moved);
+        assert!(distance < 1e-11, "step {step}: vertex {vertex} is off by {distance}");
+    }
+}
+
+#[test]
+fn the_energy_never_rises_after_the_best_start_was_chosen() {
+    let (_, mut solver, targets) = pulled_sheet(Weights::Clamped);
+    for jump in [1.0, -1.0, 4.0] {
+        solver.set_targets(&targets.iter().map(|&t| t * jump).collect::<Vec<_>>()).expect("finite");
+        solver.start(Start::Auto);
+        let mut before = solver.energy();
+        for step in 0..30 {
+            let report = solver.step();
+            assert!(report.energy <= before, "jump {jump}, step {step}: {} after {before}", report.energy);
+            assert!((0.0..1.0).contains(&report.relative_decrease), "jump {jump}, step {step}: {report:?}");
+            before = report.energy;
+        }
+    }
+}
+
+#[test]
 fn the_energy_never_rises_and_is_that_of_a_direct_sum() {
     for weights in [Weights::Clamped, Weights::Uniform] {
         let (mesh, mut solver, targets) = pulled_sheet(weights);

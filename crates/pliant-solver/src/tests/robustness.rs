@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use crate::test_support::solver;
+use crate::test_support::{bumpy_sheet, solver};
 use crate::{Analysis, LooseComponents, Mesh, Neighborhoods, Rigidity, SolveError, Solver, Start, VertexId, Weights};
 
 /// A tetrahedron; beside it collinear, repeated, duplicate and non-manifold faces, a second component, a straight chain
@@ -93,9 +93,50 @@ fn refused_changes_leave_the_solver_as_it_was() {
 }
 
 #[test]
-fn indefinite_raw_weights_are_an_error_that_names_the_way_out() {
-    // Two faces that are obtuse at vertices 2 and 3: the weight of their common edge is negative. Held spikes at both of
-    // its ends, with r = 2, count it twice as often as the other sides.
+fn handles_pulled_to_one_point_give_finite_poses() {
+    let mesh = bumpy_sheet(12);
+    let n = mesh.n_vertices();
+    let held = [VertexId(0), VertexId(1), VertexId(70), VertexId(140)];
+    for r in [1, 3] {
+        let mut solver = solver(bumpy_sheet(12), Weights::Clamped, &Rigidity::uniform(n, r), &held);
+        solver.set_targets(&[DVec3::splat(2.0); 4]).expect("finite");
+        for start in [Start::Keep, Start::Rest, Start::Auto] {
+            solver.start(start);
+            let mut before = f64::INFINITY;
+            for _ in 0..10 {
+                let energy = solver.step().energy;
+                assert!(energy > 0.0 && energy <= before, "r = {r}, {start:?}: {energy} after {before}");
+                before = energy;
+            }
+            for (v, p) in solver.positions().iter().enumerate() {
+                assert!(p.is_finite(), "r = {r}, {start:?}: vertex {v} at {p}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_mesh_without_any_edge_only_moves_what_is_held() {
+    // Enough vertices for the factorization of large systems.
+    let p: Vec<DVec3> = (0..600).map(|v| DVec3::new(f64::from(v), 0.0, 1.0)).collect();
+    let faces = (0..600).map(|v| [v, v, v]).collect();
+    let mesh = Mesh::new(p.clone(), faces).expect("valid");
+    let mut solver = solver(mesh, Weights::Clamped, &Rigidity::uniform(600, 2), &[VertexId(7)]);
+    assert_eq!(solver.loose_components().len(), 599);
+    solver.set_targets(&[DVec3::splat(-1.0)]).expect("finite");
+    for start in [Start::Keep, Start::Rest, Start::Auto] {
+        solver.start(start);
+        assert_eq!(solver.step().energy, 0.0, "{start:?}");
+        for (v, now) in solver.positions().into_iter().enumerate() {
+            let expected = if v == 7 { DVec3::splat(-1.0) } else { p[v] };
+            assert_eq!(now, expected, "{start:?}: vertex {v}");
+        }
+    }
+}
+
+/// Two faces that are obtuse at vertices 2 and 3: the weight of their common edge is negative. Held spikes at both of
+/// its ends, with r = 2, count it twice as often as the other sides.
+fn spiked_pair() -> (Mesh, Vec<VertexId>) {
     let mut p = vec![DVec3::ZERO, DVec3::X * 4.0, DVec3::new(2.0, 0.3, 0.0), DVec3::new(2.0, -0.3, 0.0)];
     let mut faces = vec![[0, 1, 2], [1, 0, 3]];
     let mut held = vec![VertexId(2), VertexId(3)];
@@ -104,12 +145,46 @@ fn indefinite_raw_weights_are_an_error_that_names_the_way_out() {
         faces.push([spike % 2, spike, spike]);
         held.push(VertexId(spike));
     }
-    let rigidity = Rigidity::uniform(p.len(), 2);
-    let mesh = Arc::new(Mesh::new(p, faces).expect("valid"));
-    let analysis = Arc::new(Analysis::new(mesh, Weights::Cotangent));
+    (Mesh::new(p, faces).expect("valid"), held)
+}
+
+#[test]
+fn indefinite_raw_weights_are_an_error_that_names_the_way_out() {
+    let (mesh, held) = spiked_pair();
+    let rigidity = Rigidity::uniform(mesh.n_vertices(), 2);
+    let analysis = Arc::new(Analysis::new(Arc::new(mesh), Weights::Cotangent));
     let neighborhoods = Neighborhoods::new(&analysis, &rigidity).expect("one size per vertex");
     let error = Solver::new(analysis, neighborhoods, &rigidity, &held, LooseComponents::KeepAtRest).err();
     let error = error.expect("the negative weight is counted twice");
     assert!(matches!(error, SolveError::Indefinite { .. }));
     assert!(error.to_string().contains("clamped weights"), "{error}");
+}
+
+#[test]
+fn a_change_refused_as_indefinite_leaves_the_next_step_bitwise_the_same() {
+    // There is nothing indefinite with one end of the negative edge held, or with r = 1.
+    for by_rigidity in [true, false] {
+        let new = || {
+            let (mesh, mut held) = spiked_pair();
+            let n = mesh.n_vertices();
+            let bad_held = held.clone();
+            if !by_rigidity {
+                held.push(VertexId(0));
+            }
+            let r = if by_rigidity { 1 } else { 2 };
+            let mut solver = solver(mesh, Weights::Cotangent, &Rigidity::uniform(n, r), &held);
+            let rest = solver.positions();
+            let targets: Vec<DVec3> = held.iter().map(|v| rest[v.index()] + DVec3::Z * f64::from(v.0 % 3)).collect();
+            solver.set_targets(&targets).expect("finite");
+            solver.step();
+            (solver, bad_held, Rigidity::uniform(n, 2))
+        };
+        let (mut untouched, ..) = new();
+        let (mut refused, bad_held, bad_rigidity) = new();
+        let error = if by_rigidity { refused.set_rigidity(&bad_rigidity) } else { refused.set_held(&bad_held) };
+        assert!(matches!(error, Err(SolveError::Indefinite { .. })), "by rigidity {by_rigidity}: {error:?}");
+        assert_eq!(refused.step(), untouched.step(), "by rigidity {by_rigidity}");
+        assert_eq!(refused.positions(), untouched.positions(), "by rigidity {by_rigidity}");
+        assert_eq!(refused.rotations(), untouched.rotations(), "by rigidity {by_rigidity}");
+    }
 }
