@@ -8,7 +8,7 @@ use std::ops::Range;
 pub struct Part {
     /// As in the file, or made up from its place there.
     pub name: String,
-    /// Its range of [`MeshFile::triangles`].
+    /// Its range of [`crate::MeshFile::triangles`].
     pub triangles: Range<usize>,
     /// Base color of its material: red, green, blue, alpha; light gray without one.
     pub base_color: [f32; 4],
