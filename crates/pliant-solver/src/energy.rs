@@ -106,7 +106,7 @@ pub(crate) fn framed_terms(frame: DQuat, turn: DQuat, moment: DMat3, u: DMat3) -
     [inner(d * moment, d), -2.0 * inner(d, u)]
 }
 
-/// R − I = 2 (w [v] + [v]²), which keeps its digits for the smallest turns.
+/// `R − I = 2 (w [v] + [v]²)`, which keeps its digits for the smallest turns.
 fn turn_less_identity(q: DQuat) -> DMat3 {
     let v = DVec3::new(q.x, q.y, q.z);
     let cross = DMat3::from_cols(DVec3::new(0.0, v.z, -v.y), DVec3::new(-v.z, 0.0, v.x), DVec3::new(v.y, -v.x, 0.0));
