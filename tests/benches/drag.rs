@@ -74,12 +74,14 @@ fn window_drag() {
         std::thread::sleep(Duration::from_millis(1));
     });
     let corner = window.get_by_label("viewport").rect().center();
-    let (mut ui, mut drawing) = (Vec::new(), Vec::new());
+    let (mut ui, mut drawing, mut on_core) = (Vec::new(), Vec::new(), Vec::new());
     for frame in 0..FRAMES {
         let begun = Instant::now();
         window.state_mut().session().apply(Command::Move { group: handle, motion: motion(frame) });
         window.hover_at(corner + egui::vec2(frame as f32 * 0.5, 0.0));
+        let before = time_on_core();
         window.step();
+        on_core.extend(time_on_core().zip(before).map(|(after, before)| after - before));
         let work = window.state_mut().last_frame_work();
         ui.push(work.ui.saturating_sub(work.drawing));
         drawing.push(work.drawing);
@@ -88,6 +90,15 @@ fn window_drag() {
     println!("drag in the window, {FRAMES} frames");
     print_times("  window's own work", &mut ui);
     print_times("  renderer's work  ", &mut drawing);
+    if !on_core.is_empty() {
+        print_times("  both, on a core  ", &mut on_core);
+    }
+}
+
+/// Time this thread has spent on a core, where Linux tells: without the waits for a core that the solver has.
+fn time_on_core() -> Option<Duration> {
+    let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
+    text.split_whitespace().next()?.parse().ok().map(Duration::from_nanos)
 }
 
 /// Waits for the sample, gives it mixed r from its own file, and holds a patch far from the anchors.
