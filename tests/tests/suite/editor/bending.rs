@@ -45,10 +45,7 @@ fn a_press_without_a_move_places_a_handle_in_one_step() {
 fn undoing_everything_gives_back_the_start_bit_for_bit() {
     let mut session = session_with(sheet(20));
     let start = document(&session).snapshot();
-    for j in [2, 17] {
-        let at = on_screen(&session, middle(j));
-        click(&mut session, at);
-    }
+    place_two_handles(&mut session);
     let from = on_screen(&session, middle(17));
     drag(&mut session, from, from + Vec2::new(80.0, -30.0));
     settle(&mut session);
@@ -87,10 +84,7 @@ fn undoing_everything_gives_back_the_start_bit_for_bit() {
 #[test]
 fn escape_takes_back_the_drag_under_way() {
     let mut session = session_with(sheet(20));
-    for j in [2, 17] {
-        let at = on_screen(&session, middle(j));
-        click(&mut session, at);
-    }
+    place_two_handles(&mut session);
     settle(&mut session);
     let before = document(&session).snapshot();
     let from = on_screen(&session, middle(17));
@@ -107,10 +101,7 @@ fn escape_takes_back_the_drag_under_way() {
 #[test]
 fn undo_in_the_middle_of_a_drag_takes_back_the_drag_and_nothing_more() {
     let mut session = session_with(sheet(20));
-    for j in [2, 17] {
-        let at = on_screen(&session, middle(j));
-        click(&mut session, at);
-    }
+    place_two_handles(&mut session);
     let before = document(&session).scene().groups.clone();
     let from = on_screen(&session, middle(17));
     press_and_move(&mut session, from, from + Vec2::new(50.0, 0.0));
@@ -188,10 +179,7 @@ fn refused_commands_become_notices_and_change_nothing() {
 #[test]
 fn deleting_all_handles_and_placing_new_ones_keeps_the_pose() {
     let mut session = session_with(sheet(20));
-    for j in [2, 17] {
-        let at = on_screen(&session, middle(j));
-        click(&mut session, at);
-    }
+    place_two_handles(&mut session);
     let from = on_screen(&session, middle(17));
     drag(&mut session, from, from + Vec2::new(80.0, -30.0));
     settle(&mut session);

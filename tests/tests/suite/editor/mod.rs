@@ -102,3 +102,11 @@ fn click(session: &mut Session, at: Vec2) {
 fn middle(j: u32) -> u32 {
     j * 21 + 10
 }
+
+/// Clicks near both ends of a sheet of 20 cells: a handle each, one step each.
+fn place_two_handles(session: &mut Session) {
+    for j in [2, 17] {
+        let at = on_screen(session, middle(j));
+        click(session, at);
+    }
+}
