@@ -8,7 +8,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use crate::hilbert::Curve;
-use crate::system::Pattern;
+use crate::linear::Pattern;
 use crate::weights::edge_weights;
 use crate::{Mesh, Weights};
 

@@ -4,11 +4,12 @@ use glam::{DMat3, DQuat, DVec3};
 
 use crate::analysis::Layout;
 use crate::energy::{DIRECT_BELOW, FEW_EDGES, Noise, component_frames, framed_terms, vertex_energies};
+use crate::linear::System;
 use crate::neighborhoods::Neighborhoods;
 use crate::parallel::{CHUNK, chunks, chunks_summed};
+use crate::quad::Quad;
 use crate::rotations::{Ties, best_rotation};
 use crate::sums::{edge_deviations, edge_pulls, edge_vectors, inner, neighborhood_sum, prefix_sums, vertex_pulls};
-use crate::system::System;
 use crate::transpose::Transpose;
 
 /// p' and R of every vertex, internal numbering.
@@ -120,9 +121,8 @@ pub(crate) struct Workspace {
     prefix: Vec<DMat3>,
     /// First slot of every block.
     slot_bounds: Vec<u32>,
-    vertex_pulls: Vec<DVec3>,
-    /// Three columns, x, y, z.
-    pub(crate) columns: Vec<f64>,
+    /// Right-hand side and solution of the system.
+    pub(crate) rhs: Vec<Quad>,
     /// Two numbers per vertex: terms of its energy.
     terms: Vec<[f64; 2]>,
     energies: Vec<f64>,
@@ -139,8 +139,7 @@ impl Workspace {
             pulls: vec![DVec3::ZERO; m],
             prefix: Vec::new(),
             slot_bounds: slot_bounds(layout),
-            vertex_pulls: vec![DVec3::ZERO; n],
-            columns: vec![0.0; 3 * n],
+            rhs: vec![Quad::ZERO; n],
             terms: vec![[0.0; 2]; n],
             energies: vec![0.0; n],
             frames: Vec::with_capacity(layout.component.iter().max().map_or(0, |&last| last as usize + 1)),
@@ -167,18 +166,12 @@ impl Workspace {
         let r = &rings.neighborhoods.r[..];
         let now = (&pose.positions[..], &pose.rotations[..]);
         edge_pulls(layout, (&rings.transpose, r), &rings.stiffness, now, &mut self.pulls);
-        vertex_pulls(layout, is_fixed, &self.pulls, &mut self.vertex_pulls);
-        let n = layout.n_vertices();
-        let (x, yz) = self.columns.split_at_mut(n);
-        let (y, z) = yz.split_at_mut(n);
-        for (i, pull) in self.vertex_pulls.iter().enumerate() {
-            (x[i], y[i], z[i]) = (pull.x, pull.y, pull.z);
-        }
-        system.solve_in_place(&mut self.columns);
-        let columns = &self.columns;
+        vertex_pulls(layout, is_fixed, &self.pulls, &mut self.rhs);
+        system.solve_in_place(&mut self.rhs);
+        let corrections = &self.rhs;
         chunks(&mut pose.positions, |first, positions| {
             for (i, p) in (first..).zip(positions).filter(|(i, _)| !is_fixed[*i]) {
-                *p += DVec3::new(columns[i], columns[n + i], columns[2 * n + i]);
+                *p += corrections[i].xyz();
             }
         });
     }

@@ -82,16 +82,17 @@ mod held;
 mod hilbert;
 mod ids;
 mod iteration;
+mod linear;
 mod mesh;
 mod neighborhoods;
 mod parallel;
+mod quad;
 mod rigid_fit;
 mod rigidity;
 mod rotations;
 mod solver;
 mod start;
 mod sums;
-mod system;
 #[cfg(test)]
 mod test_support;
 #[cfg(test)]

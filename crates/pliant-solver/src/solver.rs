@@ -8,9 +8,9 @@ use crate::analysis::Analysis;
 use crate::energy::vertex_energies;
 use crate::held::Held;
 use crate::iteration::{LocalOutcome, Pose, Rings, Workspace};
+use crate::linear::{FactorError, System};
 use crate::mesh::is_usable;
 use crate::rotations::Ties;
-use crate::system::{FactorError, System};
 use crate::{LooseComponents, Neighborhoods, Rigidity, SolveError, Start, VertexId, Weights};
 
 /// What one iteration achieved.

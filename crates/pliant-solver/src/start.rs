@@ -120,19 +120,19 @@ impl Solver {
     fn spread(&mut self, values: &mut [DVec3]) {
         let layout = &self.analysis.layout;
         let n = layout.n_vertices();
-        let columns = &mut self.workspace.columns;
-        columns.fill(0.0);
-        for i in (0..n).filter(|&i| !self.held.is_fixed[i]) {
-            for spoke in layout.spokes(i).iter().filter(|spoke| self.held.is_fixed[spoke.vertex as usize]) {
-                let pull = values[spoke.vertex as usize] * self.rings.stiffness[spoke.edge as usize];
-                columns[i] += pull.x;
-                columns[n + i] += pull.y;
-                columns[2 * n + i] += pull.z;
+        let rhs = &mut self.workspace.rhs;
+        for (i, rhs) in rhs.iter_mut().enumerate() {
+            let mut pull = DVec3::ZERO;
+            if !self.held.is_fixed[i] {
+                for spoke in layout.spokes(i).iter().filter(|spoke| self.held.is_fixed[spoke.vertex as usize]) {
+                    pull += values[spoke.vertex as usize] * self.rings.stiffness[spoke.edge as usize];
+                }
             }
+            *rhs = pull.into();
         }
-        self.system.solve_in_place(columns);
+        self.system.solve_in_place(rhs);
         for i in (0..n).filter(|&i| !self.held.is_fixed[i]) {
-            values[i] = DVec3::new(columns[i], columns[n + i], columns[2 * n + i]);
+            values[i] = rhs[i].xyz();
         }
     }
 }

@@ -13,6 +13,7 @@ use glam::{DMat3, DQuat, DVec3};
 use crate::analysis::Layout;
 use crate::neighborhoods::Neighborhoods;
 use crate::parallel::{chunks, chunks_summed, pieces};
+use crate::quad::Quad;
 use crate::transpose::Transpose;
 
 /// e' of every edge; returns Σ_e d_e w_e (‖e'‖² + ‖e‖²).
@@ -125,17 +126,17 @@ pub(crate) fn edge_pulls(
 }
 
 /// Sums the pulls at every free vertex: b − A p', which is minus half the gradient of the energy.
-pub(crate) fn vertex_pulls(layout: &Layout, is_fixed: &[bool], pulls: &[DVec3], out: &mut [DVec3]) {
+pub(crate) fn vertex_pulls(layout: &Layout, is_fixed: &[bool], pulls: &[DVec3], out: &mut [Quad]) {
     chunks(out, |first, out| {
         for (i, out) in (first..).zip(out) {
-            *out = DVec3::ZERO;
-            if is_fixed[i] {
-                continue;
+            let mut sum = DVec3::ZERO;
+            if !is_fixed[i] {
+                for spoke in layout.spokes(i) {
+                    let pull = pulls[spoke.edge as usize];
+                    if (i as u32) < spoke.vertex { sum += pull } else { sum -= pull }
+                }
             }
-            for spoke in layout.spokes(i) {
-                let pull = pulls[spoke.edge as usize];
-                if (i as u32) < spoke.vertex { *out += pull } else { *out -= pull }
-            }
+            *out = sum.into();
         }
     });
 }

@@ -18,6 +18,8 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par, Side};
 
+use crate::quad::Quad;
+
 /// Below this many unknowns the simplicial factorization is as fast (20 times slower at 100,000).
 const SUPERNODAL_FROM: usize = 500;
 /// A raw pivot this much smaller than its diagonal entry is rounding, not definiteness: 1e4 times the unit roundoff.
@@ -104,6 +106,8 @@ pub(crate) struct System {
     factor: Vec<f64>,
     factor_memory: MemBuffer,
     solve_memory: MemBuffer,
+    /// Three columns, x, y, z.
+    columns: Vec<f64>,
 }
 
 impl System {
@@ -116,7 +120,8 @@ impl System {
         let mut factor = Vec::new();
         factor.try_reserve_exact(symbolic.len_val()).map_err(|_| FactorError::TooLarge)?;
         factor.resize(symbolic.len_val(), 0.0);
-        Ok(System { pattern, factor, factor_memory, solve_memory })
+        let columns = vec![0.0; 3 * pattern.n];
+        Ok(System { pattern, factor, factor_memory, solve_memory, columns })
     }
 
     /// Factors anew. After an error the factor is unusable until the next success.
@@ -164,12 +169,19 @@ impl System {
         }
     }
 
-    /// Replaces `rhs` (three columns of n numbers, one after the other) by the solution.
-    pub(crate) fn solve_in_place(&mut self, rhs: &mut [f64]) {
+    /// Replaces `rhs` (three right-hand sides, a row of each side by side) by the solution.
+    pub(crate) fn solve_in_place(&mut self, rhs: &mut [Quad]) {
+        let n = self.pattern.n;
         let Ok(symbolic) = &self.pattern.symbolic else { return };
-        let rhs = MatMut::from_column_major_slice_mut(rhs, self.pattern.n, 3);
+        for (i, b) in rhs.iter().enumerate() {
+            (0..3).for_each(|c| self.columns[c * n + i] = b.0[c]);
+        }
+        let columns = MatMut::from_column_major_slice_mut(&mut self.columns, n, 3);
         let stack = MemStack::new(&mut self.solve_memory);
-        LltRef::new(symbolic, &self.factor).solve_in_place_with_conj(Conj::No, rhs, Par::Seq, stack);
+        LltRef::new(symbolic, &self.factor).solve_in_place_with_conj(Conj::No, columns, Par::Seq, stack);
+        for (i, x) in rhs.iter_mut().enumerate() {
+            (0..3).for_each(|c| x.0[c] = self.columns[c * n + i]);
+        }
     }
 }
 
@@ -205,11 +217,14 @@ mod tests {
             system.factor(&values).expect("definite");
             assert_eq!(system.doubtful_pivot(&values), None);
             // Right-hand side of the straight line x_i = i with ends moved over.
-            let mut rhs = vec![0.0; 3 * n];
-            (rhs[n - 1], rhs[n - 2]) = ((n - 1) as f64, (n - 1) as f64);
+            let mut rhs = vec![Quad::ZERO; n];
+            for end in [n - 1, n - 2] {
+                rhs[end].0[1] = (n - 1) as f64;
+            }
             system.solve_in_place(&mut rhs);
-            for (i, x) in rhs[..n].iter().enumerate() {
-                assert!((x - i as f64).abs() < 1e-9 * n as f64, "row {i} of {n}: {x}");
+            for (i, x) in rhs.iter().enumerate() {
+                assert!((x.0[1] - i as f64).abs() < 1e-9 * n as f64, "row {i} of {n}: {x:?}");
+                assert_eq!(x.0[0], 0.0, "row {i} of {n}");
             }
         }
     }
