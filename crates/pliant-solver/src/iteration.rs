@@ -163,10 +163,7 @@ impl Workspace {
         is_fixed: &[bool],
         pose: &mut Pose,
     ) {
-        let r = &rings.neighborhoods.r[..];
-        let now = (&pose.positions[..], &pose.rotations[..]);
-        edge_pulls(layout, (&rings.transpose, r), &rings.stiffness, now, &mut self.pulls);
-        vertex_pulls(layout, is_fixed, &self.pulls, &mut self.rhs);
+        self.gradient(layout, rings, is_fixed, pose);
         system.solve_in_place(&mut self.rhs);
         let corrections = &self.rhs;
         chunks(&mut pose.positions, |first, positions| {
@@ -174,6 +171,14 @@ impl Workspace {
                 *p += corrections[i].xyz();
             }
         });
+    }
+
+    /// b − A p' into `rhs`, which is minus half the gradient of the energy; 0 at fixed vertices.
+    pub(crate) fn gradient(&mut self, layout: &Layout, rings: &Rings, is_fixed: &[bool], pose: &Pose) {
+        let r = &rings.neighborhoods.r[..];
+        let now = (&pose.positions[..], &pose.rotations[..]);
+        edge_pulls(layout, (&rings.transpose, r), &rings.stiffness, now, &mut self.pulls);
+        vertex_pulls(layout, is_fixed, &self.pulls, &mut self.rhs);
     }
 
     /// Given p', the R of least energy (3.2.2).
