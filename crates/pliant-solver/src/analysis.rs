@@ -127,6 +127,11 @@ impl Layout {
         self.blocks.len() - 1
     }
 
+    /// First slot of every block, see [`neighborhoods`](crate::neighborhoods).
+    pub(crate) fn slot_bounds(&self) -> Vec<u32> {
+        self.blocks.iter().enumerate().map(|(block, &edge)| edge + block as u32).collect()
+    }
+
     /// The edges at vertex `v`.
     pub(crate) fn spokes(&self, v: usize) -> &[Spoke] {
         &self.spokes[self.offsets[v] as usize..self.offsets[v + 1] as usize]

@@ -3,14 +3,13 @@
 use glam::{DMat3, DQuat, DVec3};
 
 use crate::analysis::Layout;
-use crate::energy::{DIRECT_BELOW, FEW_EDGES, Noise, component_frames, framed_terms, vertex_energies};
+use crate::energy::{DIRECT_BELOW, Noise, component_frames, framed_terms, vertex_energies};
 use crate::linear::System;
-use crate::neighborhoods::Neighborhoods;
 use crate::parallel::{CHUNK, chunks, chunks_summed};
 use crate::quad::Quad;
+use crate::rings::Rings;
 use crate::rotations::{Ties, best_rotation};
 use crate::sums::{edge_deviations, edge_pulls, edge_vectors, inner, neighborhood_sum, prefix_sums, vertex_pulls};
-use crate::transpose::Transpose;
 
 /// p' and R of every vertex, internal numbering.
 pub(crate) struct Pose {
@@ -49,45 +48,6 @@ impl Pose {
     }
 }
 
-/// What the sums run over: r-rings, their transpose, and what depends on them alone.
-pub(crate) struct Rings {
-    pub(crate) neighborhoods: Neighborhoods,
-    pub(crate) transpose: Transpose,
-    /// d_e w_e.
-    pub(crate) stiffness: Vec<f64>,
-    /// Σ |d_e w_e|.
-    total_stiffness: f64,
-    /// Whether any weight is negative, as raw ones may be.
-    has_negative: bool,
-    /// C_k = Σ_{e ∈ N(k)} w_e e eᵀ; empty where a small energy is summed directly.
-    moments: Vec<DMat3>,
-}
-
-impl Rings {
-    pub(crate) fn new(layout: &Layout, neighborhoods: Neighborhoods) -> Rings {
-        let transpose = Transpose::new(layout, &neighborhoods);
-        let counts = transpose.counts(layout, &neighborhoods.r);
-        let stiffness: Vec<f64> = counts.iter().zip(&layout.weight).map(|(d, w)| d * w).collect();
-        let is_large = counts.iter().sum::<f64>() > FEW_EDGES * layout.n_edges() as f64;
-        let moments = if is_large { moments(layout, &neighborhoods) } else { Vec::new() };
-        let total_stiffness = stiffness.iter().map(|s| s.abs()).sum();
-        let has_negative = stiffness.iter().any(|&s| s < 0.0);
-        Rings { neighborhoods, transpose, stiffness, total_stiffness, has_negative, moments }
-    }
-}
-
-fn moments(layout: &Layout, neighborhoods: &Neighborhoods) -> Vec<DMat3> {
-    let mut prefix = vec![DMat3::ZERO; layout.n_edges() + layout.n_blocks()];
-    prefix_sums(layout, &slot_bounds(layout), &layout.edge_rest, &mut prefix);
-    let mut moments = vec![DMat3::ZERO; layout.n_vertices()];
-    chunks(&mut moments, |first, moments| {
-        for (k, moment) in (first..).zip(moments) {
-            *moment = neighborhood_sum(layout, neighborhoods, &layout.edge_rest, &prefix, k);
-        }
-    });
-    moments
-}
-
 /// `scale` is Σ d w (‖e'‖² + ‖e‖²).
 fn noise_of(layout: &Layout, rings: &Rings, (positions, edge_now): (&[DVec3], &[DVec3]), scale: f64) -> Noise {
     let sums = if rings.has_negative {
@@ -99,11 +59,6 @@ fn noise_of(layout: &Layout, rings: &Rings, (positions, edge_now): (&[DVec3], &[
     };
     let largest = positions.iter().fold(DVec3::ZERO, |most, p| most.max(p.abs())).max_element();
     Noise::new(sums, rings.total_stiffness, largest)
-}
-
-/// First slot of every block.
-fn slot_bounds(layout: &Layout) -> Vec<u32> {
-    layout.blocks.iter().enumerate().map(|(block, &edge)| edge + block as u32).collect()
 }
 
 /// What a local step found out.
@@ -138,7 +93,7 @@ impl Workspace {
             edge_now: vec![DVec3::ZERO; m],
             pulls: vec![DVec3::ZERO; m],
             prefix: Vec::new(),
-            slot_bounds: slot_bounds(layout),
+            slot_bounds: layout.slot_bounds(),
             rhs: vec![Quad::ZERO; n],
             terms: vec![[0.0; 2]; n],
             energies: vec![0.0; n],

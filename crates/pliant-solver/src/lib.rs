@@ -89,6 +89,7 @@ mod parallel;
 mod quad;
 mod rigid_fit;
 mod rigidity;
+mod rings;
 mod rotations;
 mod solver;
 mod start;

@@ -7,9 +7,10 @@ use glam::{DMat3, DVec3};
 use crate::analysis::Analysis;
 use crate::energy::vertex_energies;
 use crate::held::Held;
-use crate::iteration::{LocalOutcome, Pose, Rings, Workspace};
+use crate::iteration::{LocalOutcome, Pose, Workspace};
 use crate::linear::{FactorError, System};
 use crate::mesh::is_usable;
+use crate::rings::Rings;
 use crate::rotations::Ties;
 use crate::{LooseComponents, Neighborhoods, Rigidity, SolveError, Start, VertexId, Weights};
 
