@@ -9,6 +9,7 @@ use glam::DVec3;
 
 use crate::hilbert::Curve;
 use crate::linear::Pattern;
+use crate::stars::Stars;
 use crate::weights::edge_weights;
 use crate::{Mesh, Weights};
 
@@ -56,6 +57,8 @@ pub(crate) struct Layout {
     /// Block b has edges `blocks[b]..blocks[b + 1]`; no block has edges of two components.
     pub(crate) blocks: Vec<u32>,
     pub(crate) block_of_edge: Vec<u32>,
+    /// Constants of spokes and edges.
+    pub(crate) stars: Stars,
 }
 
 impl Analysis {
@@ -96,11 +99,13 @@ impl Layout {
                 [a.min(b), a.max(b)]
             })
             .collect();
-        let weight = order.iter().map(|&e| mesh_weights[e as usize]).collect();
-        let edge_rest = edges.iter().map(|&[i, j]| rest[i as usize] - rest[j as usize]).collect();
+        let weight: Vec<f64> = order.iter().map(|&e| mesh_weights[e as usize]).collect();
+        let edge_rest: Vec<DVec3> = edges.iter().map(|&[i, j]| rest[i as usize] - rest[j as usize]).collect();
         let (offsets, spokes) = spokes(rest.len(), &edges);
         let (blocks, block_of_edge) = blocks(&edges, &component);
+        let stars = Stars::new((&edges, &edge_rest, &weight), &spokes);
         Layout {
+            stars,
             to_internal,
             to_caller,
             rest,

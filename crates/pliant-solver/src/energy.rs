@@ -19,6 +19,7 @@
 use glam::{DMat3, DQuat, DVec3, DVec4};
 
 use crate::analysis::Layout;
+use crate::iteration::Pose;
 use crate::neighborhoods::Neighborhoods;
 use crate::parallel::chunks;
 use crate::sums::inner;
@@ -67,19 +68,14 @@ impl Noise {
 pub(crate) const FEW_EDGES: f64 = 8.0;
 
 /// E_k of every vertex, summed directly; raw weights may make it negative.
-pub(crate) fn vertex_energies(
-    layout: &Layout,
-    neighborhoods: &Neighborhoods,
-    (positions, rotations): (&[DVec3], &[DMat3]),
-    out: &mut [f64],
-) {
+pub(crate) fn vertex_energies(layout: &Layout, neighborhoods: &Neighborhoods, pose: &Pose, out: &mut [f64]) {
     chunks(out, |first, out| {
         for (k, out) in (first..).zip(out) {
-            let rotation = rotations[k];
+            let rotation = pose.rotation(k);
             let mut sum = 0.0;
             neighborhoods.for_each_edge(layout, k, |e| {
                 let [i, j] = layout.edges[e];
-                let now = positions[i as usize] - positions[j as usize];
+                let now = pose.positions[i as usize] - pose.positions[j as usize];
                 sum += layout.weight[e] * (now - rotation * layout.edge_rest[e]).length_squared();
             });
             *out = sum;

@@ -1,21 +1,26 @@
 //! The two half steps on plain arrays: the memory they work in, and their order of sums.
 
 use glam::{DMat3, DQuat, DVec3};
+use pulp::{Arch, Simd, WithSimd};
 
 use crate::analysis::Layout;
 use crate::energy::{DIRECT_BELOW, Noise, component_frames, framed_terms, vertex_energies};
+use crate::gathers::Gathers;
 use crate::linear::System;
-use crate::parallel::{CHUNK, chunks, chunks_summed};
+use crate::nines::{Eight, Nines, NinesRef};
+use crate::parallel::{CHUNK, chunks, chunks_with};
 use crate::quad::Quad;
 use crate::rings::Rings;
-use crate::rotations::{Ties, best_rotation};
-use crate::sums::{edge_deviations, edge_pulls, edge_vectors, inner, neighborhood_sum, prefix_sums, vertex_pulls};
+use crate::rotations::Ties;
+use crate::stars::Flat;
+use crate::sums::{edge_now, edge_pulls, neighborhood_sum, prefix_sums, run_sum, vertex_pulls};
+use crate::turning::{LOT, Lot};
 
 /// p' and R of every vertex, internal numbering.
 pub(crate) struct Pose {
     pub(crate) positions: Vec<DVec3>,
-    /// R_k as matrices, kept equal to `turns`.
-    pub(crate) rotations: Vec<DMat3>,
+    /// R_k as matrices, kept equal to `turns`; and a matrix of zeros after the last.
+    rotations: Nines,
     /// R_k as unit quaternions.
     pub(crate) turns: Vec<DQuat>,
 }
@@ -37,28 +42,23 @@ impl Clone for Pose {
 impl Pose {
     pub(crate) fn at_rest(rest: &[DVec3]) -> Pose {
         let n = rest.len();
-        Pose { positions: rest.to_vec(), rotations: vec![DMat3::IDENTITY; n], turns: vec![DQuat::IDENTITY; n] }
+        let mut pose =
+            Pose { positions: rest.to_vec(), rotations: Nines::zeros(n + 1), turns: vec![DQuat::IDENTITY; n] };
+        pose.set_turns(|_| DQuat::IDENTITY);
+        pose
     }
 
     pub(crate) fn set_turns(&mut self, turn: impl Fn(usize) -> DQuat) {
         for k in 0..self.turns.len() {
             self.turns[k] = turn(k);
-            self.rotations[k] = DMat3::from_quat(self.turns[k]);
+            self.rotations.set(k, DMat3::from_quat(self.turns[k]));
         }
     }
-}
 
-/// `scale` is Σ d w (‖e'‖² + ‖e‖²).
-fn noise_of(layout: &Layout, rings: &Rings, (positions, edge_now): (&[DVec3], &[DVec3]), scale: f64) -> Noise {
-    let sums = if rings.has_negative {
-        let squares =
-            edge_now.iter().zip(&layout.edge_rest).map(|(now, rest)| now.length_squared() + rest.length_squared());
-        rings.stiffness.iter().zip(squares).map(|(s, squares)| s.abs() * squares).sum()
-    } else {
-        scale
-    };
-    let largest = positions.iter().fold(DVec3::ZERO, |most, p| most.max(p.abs())).max_element();
-    Noise::new(sums, rings.total_stiffness, largest)
+    /// R_k.
+    pub(crate) fn rotation(&self, k: usize) -> DMat3 {
+        self.rotations.get(k)
+    }
 }
 
 /// What a local step found out.
@@ -71,41 +71,55 @@ pub(crate) struct LocalOutcome {
 
 /// Memory of the half steps, reserved once.
 pub(crate) struct Workspace {
-    edge_now: Vec<DVec3>,
-    pulls: Vec<DVec3>,
-    prefix: Vec<DMat3>,
+    /// f_e.
+    pulls: Vec<Quad>,
+    /// P, or Q; empty with r = 1 everywhere.
+    prefix: Nines,
+    gathers: Gathers,
     /// First slot of every block.
     slot_bounds: Vec<u32>,
     /// Right-hand side and solution of the system.
     pub(crate) rhs: Vec<Quad>,
+    /// Σ d w ‖e‖².
+    rest_squares: f64,
     /// Two numbers per vertex: terms of its energy.
     terms: Vec<[f64; 2]>,
     energies: Vec<f64>,
     /// One rotation per component.
     frames: Vec<DQuat>,
+    /// What every chunk of vertices adds.
+    parts: Vec<Part>,
+    /// What every block of edges adds.
     partial: Vec<f64>,
 }
 
 impl Workspace {
     pub(crate) fn new(layout: &Layout) -> Workspace {
-        let (n, m) = (layout.n_vertices(), layout.n_edges());
+        let n = layout.n_vertices();
         Workspace {
-            edge_now: vec![DVec3::ZERO; m],
-            pulls: vec![DVec3::ZERO; m],
-            prefix: Vec::new(),
+            pulls: Vec::new(),
+            prefix: Nines::default(),
+            gathers: Gathers::default(),
             slot_bounds: layout.slot_bounds(),
             rhs: vec![Quad::ZERO; n],
-            terms: vec![[0.0; 2]; n],
+            rest_squares: 0.0,
+            terms: Vec::new(),
             energies: vec![0.0; n],
             frames: Vec::with_capacity(layout.component.iter().max().map_or(0, |&last| last as usize + 1)),
-            partial: vec![0.0; n.max(m).div_ceil(CHUNK)],
+            parts: vec![Part::default(); n.div_ceil(CHUNK)],
+            partial: vec![0.0; layout.n_blocks()],
         }
     }
 
-    /// Reserves what these rings need; r = 1 everywhere needs no prefix sums.
+    /// Prepares for these rings; r = 1 everywhere needs nothing per edge.
     pub(crate) fn fit(&mut self, layout: &Layout, rings: &Rings) {
-        let n_slots = if rings.neighborhoods.has_runs() { layout.n_edges() + layout.n_blocks() } else { 0 };
-        self.prefix.resize(n_slots, DMat3::ZERO);
+        let has_runs = rings.neighborhoods.has_runs();
+        self.prefix.resize(if has_runs { layout.n_edges() + layout.n_blocks() } else { 0 });
+        self.pulls.resize(if has_runs { layout.n_edges() } else { 0 }, Quad::ZERO);
+        self.gathers = if has_runs { Gathers::new(layout, &rings.transpose) } else { Gathers::default() };
+        self.terms.resize(rings.moments.len(), [0.0; 2]);
+        let squares = layout.edge_rest.iter().zip(&rings.stiffness).map(|(e, s)| s * e.length_squared());
+        self.rest_squares = squares.collect::<Vec<_>>().chunks(CHUNK).map(|chunk| chunk.iter().sum::<f64>()).sum();
     }
 
     /// Given R, the p' of least energy (3.2.1): solves for the correction, p' ← p' + A⁻¹ (b − A p'), so that rounding of
@@ -120,48 +134,72 @@ impl Workspace {
     ) {
         self.gradient(layout, rings, is_fixed, pose);
         system.solve_in_place(&mut self.rhs);
-        let corrections = &self.rhs;
-        chunks(&mut pose.positions, |first, positions| {
-            for (i, p) in (first..).zip(positions).filter(|(i, _)| !is_fixed[*i]) {
-                *p += corrections[i].xyz();
-            }
-        });
+        for ((p, correction), _) in pose.positions.iter_mut().zip(&self.rhs).zip(is_fixed).filter(|(_, fixed)| !**fixed)
+        {
+            *p += correction.xyz();
+        }
     }
 
     /// b − A p' into `rhs`, which is minus half the gradient of the energy; 0 at fixed vertices.
     pub(crate) fn gradient(&mut self, layout: &Layout, rings: &Rings, is_fixed: &[bool], pose: &Pose) {
-        let r = &rings.neighborhoods.r[..];
-        let now = (&pose.positions[..], &pose.rotations[..]);
-        edge_pulls(layout, (&rings.transpose, r), &rings.stiffness, now, &mut self.pulls);
-        vertex_pulls(layout, is_fixed, &self.pulls, &mut self.rhs);
+        let Workspace { pulls, prefix, gathers, rhs, .. } = self;
+        let (now, rotations) = (Flat::new(&pose.positions), pose.rotations.as_slices());
+        if prefix.is_empty() {
+            vertex_pulls(
+                is_fixed,
+                rhs,
+                #[inline(always)]
+                |i| layout.stars.pull(layout, now, rotations, i),
+            );
+        } else {
+            let r = &rings.neighborhoods.r[..];
+            edge_pulls((layout, &rings.stiffness), (gathers, r), (now, rotations), pulls, prefix);
+            vertex_pulls(
+                is_fixed,
+                rhs,
+                #[inline(always)]
+                |i| layout.stars.gathered(layout, pulls, i),
+            );
+        }
     }
 
     /// Given p', the R of least energy (3.2.2).
     pub(crate) fn local(&mut self, layout: &Layout, rings: &Rings, pose: &mut Pose, ties: Ties) -> LocalOutcome {
-        let Workspace { edge_now, prefix, slot_bounds, partial, .. } = self;
-        let scale = edge_vectors(layout, &rings.stiffness, &pose.positions, edge_now, partial);
-        let noise = noise_of(layout, rings, (&pose.positions, edge_now), scale);
+        let Workspace { prefix, slot_bounds, parts, partial, .. } = self;
+        let Pose { positions, rotations, turns } = pose;
+        let now = Flat::new(positions);
+        let mut squares = 0.0;
         if !prefix.is_empty() {
-            prefix_sums(layout, slot_bounds, edge_now, prefix);
+            squares = prefix_sums(
+                (layout, &rings.stiffness),
+                #[inline(always)]
+                |e| edge_now(layout, now, e),
+                slot_bounds,
+                prefix,
+                partial,
+            );
         }
-        let gain = chunks_summed(&mut pose.rotations, &mut pose.turns, partial, |first, rotations, turns| {
-            let mut gain = 0.0;
-            for (k, (rotation, turn)) in (first..).zip(rotations.iter_mut().zip(turns)) {
-                let t = neighborhood_sum(layout, &rings.neighborhoods, edge_now, prefix, k);
-                *turn = best_rotation(t, *turn, ties);
-                *rotation = DMat3::from_quat(*turn);
-                gain += inner(*rotation, t);
-            }
-            gain
+        let n = turns.len();
+        let prefix = prefix.as_slices();
+        let out = (&mut turns[..], &mut rotations.eights[..n], &mut rotations.ninths[..n]);
+        chunks_with(n, out, parts, |first, (turns, eights, ninths)| {
+            Arch::new().dispatch(Turn { layout, rings, now, prefix, ties, first, turns, eights, ninths })
         });
-        let mut energy = scale - 2.0 * gain;
+        let part = parts.iter().fold(Part::default(), |sum, part| sum.and(part));
+        if prefix.ninths.is_empty() {
+            squares = part.squares;
+        }
+        let scale = squares + self.rest_squares;
+        let sums = if rings.has_negative { absolute_squares(layout, rings, now) } else { scale };
+        let noise = Noise::new(sums, rings.total_stiffness, part.largest);
+        let mut energy = scale - 2.0 * part.gain;
         if energy.abs() < DIRECT_BELOW * scale.abs() {
             energy = self.small_energy(layout, rings, pose, noise);
         }
         LocalOutcome { energy, noise }
     }
 
-    /// Eq. (1) where the difference of large sums says too little; `edge_now` are those of the pose.
+    /// Eq. (1) where the difference of large sums says too little.
     fn small_energy(&mut self, layout: &Layout, rings: &Rings, pose: &Pose, noise: Noise) -> f64 {
         if rings.moments.is_empty() {
             return self.direct_energy(layout, rings, pose);
@@ -176,17 +214,22 @@ impl Workspace {
         }
     }
 
-    /// Eq. (1) seen from the frames of the components, and the sum of what was added up. Overwrites `edge_now`.
+    /// Eq. (1) seen from the frames of the components, and the sum of what was added up.
     fn framed_energy(&mut self, layout: &Layout, rings: &Rings, pose: &Pose) -> (f64, f64) {
-        let Workspace { edge_now, prefix, slot_bounds, frames, terms, partial, .. } = self;
+        let Workspace { prefix, slot_bounds, frames, terms, partial, .. } = self;
         component_frames(&layout.component, &pose.turns, frames);
-        let strained = edge_deviations(layout, &rings.stiffness, frames, edge_now, partial);
-        if !prefix.is_empty() {
-            prefix_sums(layout, slot_bounds, edge_now, prefix);
-        }
+        let (now, frames) = (Flat::new(&pose.positions), &frames[..]);
+        // δ_e = Fᵀe' − e.
+        let deviation = |e: usize| {
+            let frame = frames[layout.component[layout.edges[e][0] as usize] as usize];
+            let [x, y, z, _] = edge_now(layout, now, e);
+            Quad::from(frame.conjugate() * DVec3::new(x, y, z) - layout.edge_rest[e]).0
+        };
+        let strained = prefix_sums((layout, &rings.stiffness), deviation, slot_bounds, prefix, partial);
+        let prefix = prefix.as_slices();
         chunks(terms, |first, terms| {
             for (k, terms) in (first..).zip(terms) {
-                let u = neighborhood_sum(layout, &rings.neighborhoods, edge_now, prefix, k);
+                let u = neighborhood_sum((layout, &rings.neighborhoods), deviation, prefix, k);
                 let frame = frames[layout.component[k] as usize];
                 *terms = framed_terms(frame, pose.turns[k], rings.moments[k], u);
             }
@@ -201,8 +244,77 @@ impl Workspace {
 
     /// Eq. (1) summed square by square.
     pub(crate) fn direct_energy(&mut self, layout: &Layout, rings: &Rings, pose: &Pose) -> f64 {
-        let now = (&pose.positions[..], &pose.rotations[..]);
-        vertex_energies(layout, &rings.neighborhoods, now, &mut self.energies);
+        vertex_energies(layout, &rings.neighborhoods, pose, &mut self.energies);
         self.energies.chunks(CHUNK).map(|chunk| chunk.iter().sum::<f64>()).sum()
+    }
+}
+
+/// Σ |d w| (‖e'‖² + ‖e‖²): with negative weights, the size of what was added up.
+fn absolute_squares(layout: &Layout, rings: &Rings, now: Flat<'_>) -> f64 {
+    let squares = |e: usize| {
+        let [x, y, z, _] = edge_now(layout, now, e);
+        rings.stiffness[e].abs() * (x * x + y * y + z * z + layout.edge_rest[e].length_squared())
+    };
+    (0..layout.n_edges()).map(squares).sum()
+}
+
+/// What the local step of some vertices adds up to.
+#[derive(Clone, Copy, Debug, Default)]
+struct Part {
+    /// Σ ⟨R, T⟩.
+    gain: f64,
+    /// Σ w ‖e'‖² over the spokes of those with r = 1.
+    squares: f64,
+    /// Largest coordinate.
+    largest: f64,
+}
+
+impl Part {
+    fn and(self, other: &Part) -> Part {
+        Part {
+            gain: self.gain + other.gain,
+            squares: self.squares + other.squares,
+            largest: self.largest.max(other.largest),
+        }
+    }
+}
+
+/// The local step of consecutive vertices.
+struct Turn<'a> {
+    layout: &'a Layout,
+    rings: &'a Rings,
+    now: Flat<'a>,
+    prefix: NinesRef<'a>,
+    ties: Ties,
+    first: usize,
+    turns: &'a mut [DQuat],
+    eights: &'a mut [Eight],
+    ninths: &'a mut [f64],
+}
+
+impl WithSimd for Turn<'_> {
+    type Output = Part;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Part {
+        let Turn { layout, rings, now, prefix, ties, first, turns, eights, ninths } = self;
+        let mut lot = Lot::new();
+        let (mut gain, mut squares, mut largest) = (0.0, [0.0; 4], [0.0f64; 4]);
+        let out = eights.chunks_mut(LOT).zip(ninths.chunks_mut(LOT));
+        for ((first, turns), out) in (first..).step_by(LOT).zip(turns.chunks_mut(LOT)).zip(out) {
+            for (lane, &turn) in turns.iter().enumerate() {
+                let k = first + lane;
+                let t = if rings.neighborhoods.r[k] == 1 {
+                    layout.stars.moment(layout, now, k, &mut squares)
+                } else {
+                    run_sum(&rings.neighborhoods, prefix, k)
+                };
+                lot.load(lane, t, turn);
+                let p = now.get(k);
+                largest = std::array::from_fn(|c| largest[c].max(p[c].abs()));
+            }
+            gain += lot.solve(simd, ties, turns, out);
+        }
+        Part { gain, squares: squares[0] + squares[1] + squares[2], largest: largest.into_iter().fold(0.0, f64::max) }
     }
 }

@@ -5,7 +5,9 @@ use glam::DMat3;
 use crate::analysis::Layout;
 use crate::energy::FEW_EDGES;
 use crate::neighborhoods::Neighborhoods;
+use crate::nines::Nines;
 use crate::parallel::chunks;
+use crate::quad::Quad;
 use crate::sums::{neighborhood_sum, prefix_sums};
 use crate::transpose::Transpose;
 
@@ -29,20 +31,21 @@ impl Rings {
         let counts = transpose.counts(layout, &neighborhoods.r);
         let stiffness: Vec<f64> = counts.iter().zip(&layout.weight).map(|(d, w)| d * w).collect();
         let is_large = counts.iter().sum::<f64>() > FEW_EDGES * layout.n_edges() as f64;
-        let moments = if is_large { moments(layout, &neighborhoods) } else { Vec::new() };
+        let moments = if is_large { moments(layout, &neighborhoods, &stiffness) } else { Vec::new() };
         let total_stiffness = stiffness.iter().map(|s| s.abs()).sum();
         let has_negative = stiffness.iter().any(|&s| s < 0.0);
         Rings { neighborhoods, transpose, stiffness, total_stiffness, has_negative, moments }
     }
 }
 
-fn moments(layout: &Layout, neighborhoods: &Neighborhoods) -> Vec<DMat3> {
-    let mut prefix = vec![DMat3::ZERO; layout.n_edges() + layout.n_blocks()];
-    prefix_sums(layout, &layout.slot_bounds(), &layout.edge_rest, &mut prefix);
+fn moments(layout: &Layout, neighborhoods: &Neighborhoods, stiffness: &[f64]) -> Vec<DMat3> {
+    let rest = |e: usize| Quad::from(layout.edge_rest[e]).0;
+    let mut prefix = Nines::zeros(layout.n_edges() + layout.n_blocks());
+    prefix_sums((layout, stiffness), rest, &layout.slot_bounds(), &mut prefix, &mut vec![0.0; layout.n_blocks()]);
     let mut moments = vec![DMat3::ZERO; layout.n_vertices()];
     chunks(&mut moments, |first, moments| {
         for (k, moment) in (first..).zip(moments) {
-            *moment = neighborhood_sum(layout, neighborhoods, &layout.edge_rest, &prefix, k);
+            *moment = neighborhood_sum((layout, neighborhoods), rest, prefix.as_slices(), k);
         }
     });
     moments

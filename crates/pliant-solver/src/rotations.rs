@@ -23,9 +23,9 @@ const MOST_NEWTON_STEPS: usize = 8;
 /// After a step this small the next would be below the unit roundoff, 1e-16.
 const LAST_STEP: f64 = 1e-8;
 /// Steps beyond this (in radians) leave the region where the quadratic model means anything.
-const LARGEST_STEP: f64 = 0.5;
+pub(crate) const LARGEST_STEP: f64 = 0.5;
 /// Pivots of H, relative to the largest entry of T, below which the maximum is too flat for Newton's method.
-const FLAT: f64 = 1e-6;
+pub(crate) const FLAT: f64 = 1e-6;
 /// Ten times the rounding of positions that a solve
 /// leaves after a jump across a bar of a hundred cells, relative to the largest eigenvalue of N.
 const TIE: f64 = 1e-10;

@@ -246,15 +246,14 @@ impl Solver {
 
     /// R_k of all vertices.
     pub fn rotations(&self) -> Vec<DMat3> {
-        self.in_callers_order(&self.pose.rotations)
+        self.analysis.layout.to_internal.iter().map(|&v| self.pose.rotation(v as usize)).collect()
     }
 
     /// E_k, the share of each vertex in the energy (eq. 1), summed directly: costs as much as all neighborhoods have
     /// edges.
     pub fn vertex_energies(&self) -> Vec<f64> {
         let mut energies = vec![0.0; self.analysis.layout.n_vertices()];
-        let now = (&self.pose.positions[..], &self.pose.rotations[..]);
-        vertex_energies(&self.analysis.layout, &self.rings.neighborhoods, now, &mut energies);
+        vertex_energies(&self.analysis.layout, &self.rings.neighborhoods, &self.pose, &mut energies);
         self.in_callers_order(&energies)
     }
 

@@ -1,4 +1,5 @@
-//! The three big sums of an iteration, each costing the perimeter of the neighborhoods rather than their area.
+//! The big sums of an iteration where neighborhoods are larger than spokes, each costing the perimeter of the
+//! neighborhoods rather than their area.
 //!
 //! | symbol | shape | meaning |
 //! |---|---|---|
@@ -7,137 +8,141 @@
 //! | T_k = S_kᵀ | 3 × 3 per vertex | Σ_{e ∈ N(k)} w_e e' eᵀ, as differences of P |
 //! | Q_e | 3 × 3 per edge | Σ_k M_ke R_k, as a running sum |
 //! | f_e | 3 per edge | w_e (Q_e e − d_e e'), the pull of an edge on its ends |
+//!
+//! Loops are compiled for several processors, and the best for the one at hand is taken; sums are the same in all.
 
-use glam::{DMat3, DQuat, DVec3};
+use glam::{DMat3, DVec3};
+use pulp::Arch;
 
 use crate::analysis::Layout;
+use crate::gathers::Gathers;
 use crate::neighborhoods::Neighborhoods;
-use crate::parallel::{chunks, chunks_summed, pieces};
+use crate::nines::{Nine, Nines, NinesRef};
+use crate::parallel::{chunks, pieces, pieces_with};
 use crate::quad::Quad;
-use crate::transpose::Transpose;
+use crate::stars::Flat;
 
-/// e' of every edge; returns Σ_e d_e w_e (‖e'‖² + ‖e‖²).
-pub(crate) fn edge_vectors(
-    layout: &Layout,
-    stiffness: &[f64],
-    positions: &[DVec3],
-    edge_now: &mut [DVec3],
-    partial: &mut [f64],
-) -> f64 {
-    // A list of nothing stands in for the second output that is not needed here.
-    let mut none = vec![(); edge_now.len()];
-    chunks_summed(edge_now, &mut none, partial, |first, now, _| {
-        let mut sum = 0.0;
-        for (e, now) in (first..).zip(now) {
-            let [i, j] = layout.edges[e];
-            *now = positions[i as usize] - positions[j as usize];
-            sum += stiffness[e] * (now.length_squared() + layout.edge_rest[e].length_squared());
-        }
-        sum
-    })
+/// e' of an edge.
+#[inline(always)]
+pub(crate) fn edge_now(layout: &Layout, now: Flat<'_>, e: usize) -> [f64; 4] {
+    let [i, j] = layout.edges[e];
+    let (a, b) = (now.get(i as usize), now.get(j as usize));
+    std::array::from_fn(|c| a[c] - b[c])
 }
 
-/// δ_e = Fᵀe' − e in the place of e', with F the frame of the component; returns Σ_e d_e w_e ‖δ_e‖².
-pub(crate) fn edge_deviations(
-    layout: &Layout,
-    stiffness: &[f64],
-    frames: &[DQuat],
-    edge_now: &mut [DVec3],
+/// The prefix sums P for any vectors v_e instead of e'; `bounds` are the first slots of the blocks. Returns
+/// Σ_e d_e w_e ‖v_e‖², for which `partial` must have an entry per block.
+pub(crate) fn prefix_sums(
+    (layout, stiffness): (&Layout, &[f64]),
+    vector: impl Fn(usize) -> [f64; 4] + Sync,
+    bounds: &[u32],
+    prefix: &mut Nines,
     partial: &mut [f64],
 ) -> f64 {
-    let mut none = vec![(); edge_now.len()];
-    chunks_summed(edge_now, &mut none, partial, |first, now, _| {
-        let mut sum = 0.0;
-        for (e, now) in (first..).zip(now) {
-            let frame = frames[layout.component[layout.edges[e][0] as usize] as usize];
-            *now = frame.conjugate() * *now - layout.edge_rest[e];
-            sum += stiffness[e] * now.length_squared();
-        }
-        sum
-    })
-}
-
-/// The prefix sums P. `bounds` are the first slots of the blocks.
-pub(crate) fn prefix_sums(layout: &Layout, bounds: &[u32], edge_now: &[DVec3], prefix: &mut [DMat3]) {
-    pieces(bounds, prefix, &|block, slots| {
-        let mut running = DMat3::ZERO;
-        slots[0] = running;
-        let edges = layout.blocks[block] as usize..layout.blocks[block + 1] as usize;
-        for (e, slot) in edges.zip(&mut slots[1..]) {
-            running += outer(edge_now[e], layout.edge_rest[e] * layout.weight[e]);
-            *slot = running;
-        }
+    let slots = (&mut prefix.eights[..], &mut prefix.ninths[..]);
+    pieces_with(bounds, slots, partial, |block, (eights, ninths)| {
+        Arch::new().dispatch(
+            #[inline(always)]
+            || {
+                let edges = layout.blocks[block] as usize..layout.blocks[block + 1] as usize;
+                let (mut running, mut squares) = (Nine::ZERO, [0.0; 4]);
+                (eights[0], ninths[0]) = (running.eight, running.ninth);
+                let slots = eights[1..].iter_mut().zip(&mut ninths[1..]);
+                let constants = layout.stars.edges[edges.clone()].iter().zip(&stiffness[edges.clone()]);
+                for ((e, (eight, ninth)), (&Quad(rest), &s)) in edges.zip(slots).zip(constants) {
+                    let v = vector(e);
+                    running = running.plus_outer(v, rest);
+                    squares = std::array::from_fn(|c| squares[c] + v[c] * v[c] * s);
+                    (*eight, *ninth) = (running.eight, running.ninth);
+                }
+                squares[0] + squares[1] + squares[2]
+            },
+        )
     });
+    partial[..layout.n_blocks()].iter().sum()
 }
 
-/// T_k of one vertex.
+#[inline(always)]
+fn difference(prefix: NinesRef<'_>, [from, to]: [u32; 2]) -> Nine {
+    prefix.get(to as usize).minus(prefix.get(from as usize))
+}
+
+/// T_k of a vertex with r > 1.
+#[inline(always)]
+pub(crate) fn run_sum(neighborhoods: &Neighborhoods, prefix: NinesRef<'_>, k: usize) -> Nine {
+    let mut sums = [Nine::ZERO; 2];
+    let (pairs, last) = neighborhoods.runs(k).as_chunks::<2>();
+    for &[one, other] in pairs {
+        sums[0] = sums[0].plus(difference(prefix, one));
+        sums[1] = sums[1].plus(difference(prefix, other));
+    }
+    let mut sum = sums[0].plus(sums[1]);
+    for &one in last {
+        sum = sum.plus(difference(prefix, one));
+    }
+    sum
+}
+
+/// T_k of one vertex for any vectors instead of e'.
 pub(crate) fn neighborhood_sum(
-    layout: &Layout,
-    neighborhoods: &Neighborhoods,
-    edge_now: &[DVec3],
-    prefix: &[DMat3],
+    (layout, neighborhoods): (&Layout, &Neighborhoods),
+    vector: impl Fn(usize) -> [f64; 4],
+    prefix: NinesRef<'_>,
     k: usize,
 ) -> DMat3 {
-    let mut t = DMat3::ZERO;
     if neighborhoods.r[k] == 1 {
-        for spoke in layout.spokes(k) {
-            let e = spoke.edge as usize;
-            t += outer(edge_now[e], layout.edge_rest[e] * layout.weight[e]);
-        }
+        let edges = layout.spokes(k).iter().map(|spoke| spoke.edge as usize);
+        edges.fold(Nine::ZERO, |sum, e| sum.plus_outer(vector(e), layout.stars.edges[e].0)).into()
     } else {
-        for &[from, to] in neighborhoods.runs(k) {
-            t += prefix[to as usize] - prefix[from as usize];
-        }
+        run_sum(neighborhoods, prefix, k).into()
     }
-    t
 }
 
-/// f_e = w_e (Q_e e − d_e e') of every edge.
+/// f_e of every edge. Q is written to the slots of the prefix sums.
 pub(crate) fn edge_pulls(
-    layout: &Layout,
-    (transpose, r): (&Transpose, &[u16]),
-    stiffness: &[f64],
-    (positions, rotations): (&[DVec3], &[DMat3]),
-    pulls: &mut [DVec3],
+    (layout, stiffness): (&Layout, &[f64]),
+    (gathers, r): (&Gathers, &[u16]),
+    (now, rotations): (Flat<'_>, NinesRef<'_>),
+    pulls: &mut [Quad],
+    q: &mut Nines,
 ) {
-    pieces(&layout.blocks, pulls, &|block, pulls| {
-        let mut running = DMat3::ZERO;
-        for (e, pull) in (layout.blocks[block] as usize..).zip(pulls) {
-            if !transpose.is_empty() {
-                transpose.at(e + block, |k, plus| {
-                    if plus {
-                        running += rotations[k];
-                    } else {
-                        running -= rotations[k];
+    let m = pulls.len();
+    let q = (&mut q.eights[..m], &mut q.ninths[..m]);
+    pieces(&layout.blocks, (pulls, q.0, q.1), |block, (pulls, eights, ninths)| {
+        Arch::new().dispatch(
+            #[inline(always)]
+            || {
+                gathers.sum(block, rotations, (eights, ninths));
+                let edges = layout.blocks[block] as usize..layout.blocks[block + 1] as usize;
+                let constants = layout.stars.edges[edges.clone()].iter().zip(&stiffness[edges.clone()]);
+                let sums = eights.iter().zip(ninths.iter());
+                for (((e, pull), (&eight, &ninth)), (&Quad(rest), &s)) in edges.zip(pulls).zip(sums).zip(constants) {
+                    let mut q = Nine { eight, ninth };
+                    for end in layout.edges[e].map(|end| end as usize) {
+                        if r[end] == 1 {
+                            q = q.plus(rotations.get(end));
+                        }
                     }
-                });
-            }
-            let [i, j] = layout.edges[e].map(|end| end as usize);
-            let mut q = running;
-            if r[i] == 1 {
-                q += rotations[i];
-            }
-            if r[j] == 1 {
-                q += rotations[j];
-            }
-            *pull = q * layout.edge_rest[e] * layout.weight[e] - (positions[i] - positions[j]) * stiffness[e];
-        }
+                    let edge = edge_now(layout, now, e);
+                    let DVec3 { x, y, z } = Nine::ZERO.plus_product(q, rest).folded();
+                    *pull = Quad([x - edge[0] * s, y - edge[1] * s, z - edge[2] * s, 0.0]);
+                }
+            },
+        );
     });
 }
 
-/// Sums the pulls at every free vertex: b − A p', which is minus half the gradient of the energy.
-pub(crate) fn vertex_pulls(layout: &Layout, is_fixed: &[bool], pulls: &[DVec3], out: &mut [Quad]) {
+/// b − A p', which is minus half the gradient of the energy: `pull` of every free vertex, 0 at fixed ones.
+pub(crate) fn vertex_pulls(is_fixed: &[bool], out: &mut [Quad], pull: impl Fn(usize) -> Quad + Sync) {
     chunks(out, |first, out| {
-        for (i, out) in (first..).zip(out) {
-            let mut sum = DVec3::ZERO;
-            if !is_fixed[i] {
-                for spoke in layout.spokes(i) {
-                    let pull = pulls[spoke.edge as usize];
-                    if (i as u32) < spoke.vertex { sum += pull } else { sum -= pull }
+        Arch::new().dispatch(
+            #[inline(always)]
+            || {
+                for (i, out) in (first..).zip(out) {
+                    *out = if is_fixed[i] { Quad::ZERO } else { pull(i) };
                 }
-            }
-            *out = sum.into();
-        }
+            },
+        );
     });
 }
 

@@ -1,0 +1,118 @@
+//! The spokes of every vertex with what is constant about them, and the sums over them: all of r = 1.
+//!
+//! | symbol | shape | meaning |
+//! |---|---|---|
+//! | e, e' | 3 per spoke | p_i − p_j at rest and now, from the vertex i at the center |
+//! | w | 1 per spoke | weight of the edge |
+//! | T_i | 3 × 3 per vertex | Σ_j w e' eᵀ |
+//! | f_i | 3 per vertex | Σ_j (w (R_i + R_j) e − 2 w e'), which is (b − A p')_i where r = 1 everywhere |
+
+use glam::DVec3;
+use pulp::bytemuck::cast_slice;
+
+use crate::analysis::{Layout, Spoke};
+use crate::nines::{Nine, NinesRef};
+use crate::quad::Quad;
+
+/// Set in the edge of a spoke whose center is the second end of the edge.
+const SECOND: u32 = 1 << 31;
+
+/// What of spokes and edges is constant, in the order in which it is read; 40 bytes per spoke and 32 per edge.
+pub(crate) struct Stars {
+    /// The vertex at the other end of each spoke.
+    neighbors: Vec<u32>,
+    /// w e and w of each spoke.
+    spokes: Vec<Quad>,
+    /// Each spoke's edge, with [`SECOND`] or without.
+    spoke_edges: Vec<u32>,
+    /// w e and w of each edge, from its first end.
+    pub(crate) edges: Vec<Quad>,
+}
+
+/// Positions as plain numbers, three each.
+#[derive(Clone, Copy)]
+pub(crate) struct Flat<'a>(&'a [f64]);
+
+impl<'a> Flat<'a> {
+    pub(crate) fn new(positions: &'a [DVec3]) -> Flat<'a> {
+        Flat(cast_slice(positions))
+    }
+
+    /// A position, and a fourth number that means nothing but is finite where positions are: three numbers are loaded in
+    /// several steps, four in one.
+    #[inline(always)]
+    pub(crate) fn get(self, i: usize) -> [f64; 4] {
+        match self.0.get(3 * i..3 * i + 4) {
+            Some(&[x, y, z, next]) => [x, y, z, next],
+            _ => [self.0[3 * i], self.0[3 * i + 1], self.0[3 * i + 2], 0.0],
+        }
+    }
+}
+
+impl Stars {
+    /// `ends`, e and w of the edges, and the spokes by vertex.
+    pub(crate) fn new((ends, rest, weight): (&[[u32; 2]], &[DVec3], &[f64]), spokes: &[Spoke]) -> Stars {
+        let constant = |(&e, &w): (&DVec3, &f64)| Quad([e.x * w, e.y * w, e.z * w, w]);
+        let edges: Vec<Quad> = rest.iter().zip(weight).map(constant).collect();
+        // The first end of an edge is the smaller one.
+        let is_first = |spoke: &Spoke| ends[spoke.edge as usize][1] == spoke.vertex;
+        let outward = |spoke: &Spoke| {
+            let Quad([x, y, z, w]) = edges[spoke.edge as usize];
+            if is_first(spoke) { Quad([x, y, z, w]) } else { Quad([-x, -y, -z, w]) }
+        };
+        Stars {
+            neighbors: spokes.iter().map(|spoke| spoke.vertex).collect(),
+            spokes: spokes.iter().map(outward).collect(),
+            spoke_edges: spokes.iter().map(|s| if is_first(s) { s.edge } else { s.edge | SECOND }).collect(),
+            edges,
+        }
+    }
+
+    #[inline(always)]
+    fn range(layout: &Layout, i: usize) -> std::ops::Range<usize> {
+        layout.offsets[i] as usize..layout.offsets[i + 1] as usize
+    }
+
+    /// T_i; adds w ‖e'‖² of its spokes to `squares`, coordinate by coordinate.
+    #[inline(always)]
+    pub(crate) fn moment(&self, layout: &Layout, now: Flat<'_>, i: usize, squares: &mut [f64; 4]) -> Nine {
+        let center = now.get(i);
+        let range = Stars::range(layout, i);
+        let mut sum = Nine::ZERO;
+        for (&j, &Quad(rest)) in self.neighbors[range.clone()].iter().zip(&self.spokes[range]) {
+            let end = now.get(j as usize);
+            let edge: [f64; 4] = std::array::from_fn(|c| center[c] - end[c]);
+            sum = sum.plus_outer(edge, rest);
+            *squares = std::array::from_fn(|c| squares[c] + edge[c] * edge[c] * rest[3]);
+        }
+        sum
+    }
+
+    /// f_i.
+    #[inline(always)]
+    pub(crate) fn pull(&self, layout: &Layout, now: Flat<'_>, rotations: NinesRef<'_>, i: usize) -> Quad {
+        let center = now.get(i);
+        let range = Stars::range(layout, i);
+        let (mut sum, mut rests, mut drift) = (Nine::ZERO, [0.0; 4], [0.0; 4]);
+        for (&j, &Quad(rest)) in self.neighbors[range.clone()].iter().zip(&self.spokes[range]) {
+            let end = now.get(j as usize);
+            sum = sum.plus_product(rotations.get(j as usize), rest);
+            rests = std::array::from_fn(|c| rests[c] + rest[c]);
+            drift = std::array::from_fn(|c| drift[c] + (center[c] - end[c]) * rest[3]);
+        }
+        let DVec3 { x, y, z } = sum.plus_product(rotations.get(i), rests).folded();
+        Quad([x - 2.0 * drift[0], y - 2.0 * drift[1], z - 2.0 * drift[2], 0.0])
+    }
+
+    /// The sum of what is given for the edges of a vertex, taken from the center outward.
+    #[inline(always)]
+    pub(crate) fn gathered(&self, layout: &Layout, of_edges: &[Quad], i: usize) -> Quad {
+        let mut sum = [0.0; 4];
+        for &edge in &self.spoke_edges[Stars::range(layout, i)] {
+            let Quad(here) = of_edges[(edge & !SECOND) as usize];
+            let sign = u64::from(edge & SECOND) << 32;
+            sum = std::array::from_fn(|c| sum[c] + f64::from_bits(here[c].to_bits() ^ sign));
+        }
+        Quad(sum)
+    }
+}
