@@ -5,8 +5,9 @@
 //! minus, filled up with a matrix of zeros, and a block is one plain loop over steps.
 
 use crate::analysis::Layout;
-use crate::nines::{Eight, Nine, NinesRef};
+use crate::nines::{Eight, NinesRef};
 use crate::transpose::Transpose;
+use crate::wide::Wide;
 
 /// Q grows by R of `plus` less R of `minus`; it is that of `edge` (counted from the first of the block) if no other step
 /// of this edge follows.
@@ -33,13 +34,23 @@ impl Gathers {
 
     /// Q of the edges of a block. `rotations` must end with a matrix of zeros.
     #[inline(always)]
-    pub(crate) fn sum(&self, block: usize, rotations: NinesRef<'_>, (eights, ninths): (&mut [Eight], &mut [f64])) {
-        let mut running = Nine::ZERO;
+    pub(crate) fn sum<W: Wide>(
+        &self,
+        wide: W,
+        block: usize,
+        rotations: NinesRef<'_>,
+        (eights, ninths): (&mut [Eight], &mut [f64]),
+    ) {
+        let (mut running, mut ninth) = (wide.eight([0.0; 8]), 0.0);
         for step in &self.blocks[block] {
             let [a, b] = step.plus.map(|k| rotations.get(k as usize));
             let [c, d] = step.minus.map(|k| rotations.get(k as usize));
-            running = running.plus(a.minus(c).plus(b.minus(d)));
-            (eights[step.edge as usize], ninths[step.edge as usize]) = (running.eight, running.ninth);
+            let [one, other] = [(a, c), (b, d)].map(|(plus, minus)| {
+                (wide.sub8(wide.eight(plus.eight.0), wide.eight(minus.eight.0)), plus.ninth - minus.ninth)
+            });
+            running = wide.add8(running, wide.add8(one.0, other.0));
+            ninth += one.1 + other.1;
+            (eights[step.edge as usize], ninths[step.edge as usize]) = (Eight(wide.array8(running)), ninth);
         }
     }
 }

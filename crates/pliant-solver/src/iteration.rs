@@ -1,20 +1,22 @@
 //! The two half steps on plain arrays: the memory they work in, and their order of sums.
 
 use glam::{DMat3, DQuat, DVec3};
-use pulp::{Arch, Simd, WithSimd};
 
 use crate::analysis::Layout;
 use crate::energy::{DIRECT_BELOW, Noise, component_frames, framed_terms, vertex_energies};
 use crate::gathers::Gathers;
 use crate::linear::System;
-use crate::nines::{Eight, Nines, NinesRef};
+use crate::nines::{Eight, Nine, Nines, NinesRef};
 use crate::parallel::{CHUNK, chunks, chunks_with};
 use crate::quad::Quad;
 use crate::rings::Rings;
 use crate::rotations::Ties;
 use crate::stars::Flat;
-use crate::sums::{edge_now, edge_pulls, neighborhood_sum, prefix_sums, run_sum, vertex_pulls};
+use crate::sums::{
+    Computed, GatheredPull, Now, StarPull, edge_pulls, neighborhood_sum, prefix_sums, run_sum, vertex_pulls,
+};
 use crate::turning::{LOT, Lot};
+use crate::wide::{Kernel, Wide, dispatch};
 
 /// p' and R of every vertex, internal numbering.
 pub(crate) struct Pose {
@@ -143,23 +145,14 @@ impl Workspace {
     /// b − A p' into `rhs`, which is minus half the gradient of the energy; 0 at fixed vertices.
     pub(crate) fn gradient(&mut self, layout: &Layout, rings: &Rings, is_fixed: &[bool], pose: &Pose) {
         let Workspace { pulls, prefix, gathers, rhs, .. } = self;
-        let (now, rotations) = (Flat::new(&pose.positions), pose.rotations.as_slices());
+        let now = Now { layout, positions: Flat::new(&pose.positions) };
+        let rotations = pose.rotations.as_slices();
         if prefix.is_empty() {
-            vertex_pulls(
-                is_fixed,
-                rhs,
-                #[inline(always)]
-                |i| layout.stars.pull(layout, now, rotations, i),
-            );
+            vertex_pulls(is_fixed, StarPull { now, rotations }, rhs);
         } else {
             let r = &rings.neighborhoods.r[..];
-            edge_pulls((layout, &rings.stiffness), (gathers, r), (now, rotations), pulls, prefix);
-            vertex_pulls(
-                is_fixed,
-                rhs,
-                #[inline(always)]
-                |i| layout.stars.gathered(layout, pulls, i),
-            );
+            edge_pulls((&rings.stiffness, r), now, (gathers, rotations), pulls, prefix);
+            vertex_pulls(is_fixed, GatheredPull { layout, pulls }, rhs);
         }
     }
 
@@ -167,30 +160,23 @@ impl Workspace {
     pub(crate) fn local(&mut self, layout: &Layout, rings: &Rings, pose: &mut Pose, ties: Ties) -> LocalOutcome {
         let Workspace { prefix, slot_bounds, parts, partial, .. } = self;
         let Pose { positions, rotations, turns } = pose;
-        let now = Flat::new(positions);
+        let now = Now { layout, positions: Flat::new(positions) };
         let mut squares = 0.0;
         if !prefix.is_empty() {
-            squares = prefix_sums(
-                (layout, &rings.stiffness),
-                #[inline(always)]
-                |e| edge_now(layout, now, e),
-                slot_bounds,
-                prefix,
-                partial,
-            );
+            squares = prefix_sums((layout, &rings.stiffness), now, slot_bounds, prefix, partial);
         }
         let n = turns.len();
         let prefix = prefix.as_slices();
         let out = (&mut turns[..], &mut rotations.eights[..n], &mut rotations.ninths[..n]);
         chunks_with(n, out, parts, |first, (turns, eights, ninths)| {
-            Arch::new().dispatch(Turn { layout, rings, now, prefix, ties, first, turns, eights, ninths })
+            dispatch(Turn { rings, now, prefix, ties, first, turns, eights, ninths })
         });
         let part = parts.iter().fold(Part::default(), |sum, part| sum.and(part));
         if prefix.ninths.is_empty() {
             squares = part.squares;
         }
         let scale = squares + self.rest_squares;
-        let sums = if rings.has_negative { absolute_squares(layout, rings, now) } else { scale };
+        let sums = if rings.has_negative { absolute_squares(rings, now) } else { scale };
         let noise = Noise::new(sums, rings.total_stiffness, part.largest);
         let mut energy = scale - 2.0 * part.gain;
         if energy.abs() < DIRECT_BELOW * scale.abs() {
@@ -218,14 +204,13 @@ impl Workspace {
     fn framed_energy(&mut self, layout: &Layout, rings: &Rings, pose: &Pose) -> (f64, f64) {
         let Workspace { prefix, slot_bounds, frames, terms, partial, .. } = self;
         component_frames(&layout.component, &pose.turns, frames);
-        let (now, frames) = (Flat::new(&pose.positions), &frames[..]);
+        let (now, frames) = (Now { layout, positions: Flat::new(&pose.positions) }, &frames[..]);
         // δ_e = Fᵀe' − e.
         let deviation = |e: usize| {
             let frame = frames[layout.component[layout.edges[e][0] as usize] as usize];
-            let [x, y, z, _] = edge_now(layout, now, e);
-            Quad::from(frame.conjugate() * DVec3::new(x, y, z) - layout.edge_rest[e]).0
+            frame.conjugate() * now.vector(e) - layout.edge_rest[e]
         };
-        let strained = prefix_sums((layout, &rings.stiffness), deviation, slot_bounds, prefix, partial);
+        let strained = prefix_sums((layout, &rings.stiffness), Computed(deviation), slot_bounds, prefix, partial);
         let prefix = prefix.as_slices();
         chunks(terms, |first, terms| {
             for (k, terms) in (first..).zip(terms) {
@@ -250,12 +235,9 @@ impl Workspace {
 }
 
 /// Σ |d w| (‖e'‖² + ‖e‖²): with negative weights, the size of what was added up.
-fn absolute_squares(layout: &Layout, rings: &Rings, now: Flat<'_>) -> f64 {
-    let squares = |e: usize| {
-        let [x, y, z, _] = edge_now(layout, now, e);
-        rings.stiffness[e].abs() * (x * x + y * y + z * z + layout.edge_rest[e].length_squared())
-    };
-    (0..layout.n_edges()).map(squares).sum()
+fn absolute_squares(rings: &Rings, now: Now<'_>) -> f64 {
+    let squares = |e: usize| now.vector(e).length_squared() + now.layout.edge_rest[e].length_squared();
+    rings.stiffness.iter().enumerate().map(|(e, s)| s.abs() * squares(e)).sum()
 }
 
 /// What the local step of some vertices adds up to.
@@ -281,9 +263,8 @@ impl Part {
 
 /// The local step of consecutive vertices.
 struct Turn<'a> {
-    layout: &'a Layout,
     rings: &'a Rings,
-    now: Flat<'a>,
+    now: Now<'a>,
     prefix: NinesRef<'a>,
     ties: Ties,
     first: usize,
@@ -292,29 +273,31 @@ struct Turn<'a> {
     ninths: &'a mut [f64],
 }
 
-impl WithSimd for Turn<'_> {
+impl Kernel for Turn<'_> {
     type Output = Part;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> Part {
-        let Turn { layout, rings, now, prefix, ties, first, turns, eights, ninths } = self;
+    fn run<W: Wide>(self, wide: W) -> Part {
+        let Turn { rings, now: Now { layout, positions }, prefix, ties, first, turns, eights, ninths } = self;
         let mut lot = Lot::new();
-        let (mut gain, mut squares, mut largest) = (0.0, [0.0; 4], [0.0f64; 4]);
+        let (mut gain, mut squares, mut largest) = (0.0, wide.splat4(0.0), [0.0f64; 4]);
         let out = eights.chunks_mut(LOT).zip(ninths.chunks_mut(LOT));
         for ((first, turns), out) in (first..).step_by(LOT).zip(turns.chunks_mut(LOT)).zip(out) {
             for (lane, &turn) in turns.iter().enumerate() {
                 let k = first + lane;
-                let t = if rings.neighborhoods.r[k] == 1 {
-                    layout.stars.moment(layout, now, k, &mut squares)
+                let (eight, ninth) = if rings.neighborhoods.r[k] == 1 {
+                    let (eight, last) = layout.stars.moment(wide, (layout, positions), k, &mut squares);
+                    (eight, wide.array4(last)[2])
                 } else {
-                    run_sum(&rings.neighborhoods, prefix, k)
+                    run_sum(wide, &rings.neighborhoods, prefix, k)
                 };
-                lot.load(lane, t, turn);
-                let p = now.get(k);
+                lot.load(lane, Nine { eight: Eight(wide.array8(eight)), ninth }, turn);
+                let p = positions.numbers(k);
                 largest = std::array::from_fn(|c| largest[c].max(p[c].abs()));
             }
-            gain += lot.solve(simd, ties, turns, out);
+            gain += lot.solve(wide, ties, turns, out);
         }
-        Part { gain, squares: squares[0] + squares[1] + squares[2], largest: largest.into_iter().fold(0.0, f64::max) }
+        let [x, y, z, _] = wide.array4(squares);
+        Part { gain, squares: x + y + z, largest: largest.into_iter().fold(0.0, f64::max) }
     }
 }

@@ -106,6 +106,7 @@ mod topology;
 mod transpose;
 mod turning;
 mod weights;
+mod wide;
 
 pub use analysis::Analysis;
 pub use error::{MeshError, RigidityError, SolveError};

@@ -8,9 +8,9 @@
 //! ```
 //!
 //! so that a product of vectors, or of a matrix and a vector, is eight products side by side and one more: a bᵀ is
-//! `rows(a) · columns(b)`, and M v is what [`folded`] makes of `M · columns(v)`.
+//! `rows(a) · columns(b)`, and M v is what `folded` makes of `M · columns(v)`. See [`Wide`](crate::wide::Wide).
 
-use glam::{DMat3, DVec3};
+use glam::DMat3;
 
 /// Eight numbers in one cache line.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -19,21 +19,6 @@ pub(crate) struct Eight(pub(crate) [f64; 8]);
 
 impl Eight {
     pub(crate) const ZERO: Eight = Eight([0.0; 8]);
-
-    #[inline(always)]
-    pub(crate) fn plus(self, other: Eight) -> Eight {
-        Eight(std::array::from_fn(|l| self.0[l] + other.0[l]))
-    }
-
-    #[inline(always)]
-    pub(crate) fn minus(self, other: Eight) -> Eight {
-        Eight(std::array::from_fn(|l| self.0[l] - other.0[l]))
-    }
-
-    #[inline(always)]
-    pub(crate) fn times(self, other: Eight) -> Eight {
-        Eight(std::array::from_fn(|l| self.0[l] * other.0[l]))
-    }
 }
 
 /// A 3 × 3 matrix in this order.
@@ -44,37 +29,6 @@ pub(crate) struct Nine {
 }
 
 impl Nine {
-    pub(crate) const ZERO: Nine = Nine { eight: Eight::ZERO, ninth: 0.0 };
-
-    #[inline(always)]
-    pub(crate) fn plus(self, other: Nine) -> Nine {
-        Nine { eight: self.eight.plus(other.eight), ninth: self.ninth + other.ninth }
-    }
-
-    #[inline(always)]
-    pub(crate) fn minus(self, other: Nine) -> Nine {
-        Nine { eight: self.eight.minus(other.eight), ninth: self.ninth - other.ninth }
-    }
-
-    /// `self` + a bᵀ; fourth entries are not used.
-    #[inline(always)]
-    pub(crate) fn plus_outer(self, a: [f64; 4], b: [f64; 4]) -> Nine {
-        Nine { eight: self.eight.plus(rows(a).times(columns(b))), ninth: self.ninth + a[2] * b[2] }
-    }
-
-    /// `self` + M diag(v), of which [`Nine::folded`] makes M v; the fourth entry of v is not used.
-    #[inline(always)]
-    pub(crate) fn plus_product(self, m: Nine, v: [f64; 4]) -> Nine {
-        Nine { eight: self.eight.plus(m.eight.times(columns(v))), ninth: self.ninth + m.ninth * v[2] }
-    }
-
-    /// The sum of the three columns.
-    #[inline(always)]
-    pub(crate) fn folded(self) -> DVec3 {
-        let [ax, ay, az, cx, bx, by, bz, cy] = self.eight.0;
-        DVec3::new(ax + bx + cx, ay + by + cy, az + bz + self.ninth)
-    }
-
     /// Entries column by column.
     #[inline(always)]
     pub(crate) fn entries(self) -> [f64; 9] {
@@ -98,16 +52,6 @@ impl From<Nine> for DMat3 {
     fn from(m: Nine) -> DMat3 {
         DMat3::from_cols_array(&m.entries())
     }
-}
-
-#[inline(always)]
-fn rows([x, y, z, _]: [f64; 4]) -> Eight {
-    Eight([x, y, z, x, x, y, z, y])
-}
-
-#[inline(always)]
-fn columns([x, y, z, _]: [f64; 4]) -> Eight {
-    Eight([x, x, x, z, y, y, y, z])
 }
 
 /// A list of matrices.

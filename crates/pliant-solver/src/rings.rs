@@ -7,8 +7,7 @@ use crate::energy::FEW_EDGES;
 use crate::neighborhoods::Neighborhoods;
 use crate::nines::Nines;
 use crate::parallel::chunks;
-use crate::quad::Quad;
-use crate::sums::{neighborhood_sum, prefix_sums};
+use crate::sums::{Computed, neighborhood_sum, prefix_sums};
 use crate::transpose::Transpose;
 
 /// What the sums run over: r-rings, their transpose, and what depends on them alone.
@@ -39,9 +38,15 @@ impl Rings {
 }
 
 fn moments(layout: &Layout, neighborhoods: &Neighborhoods, stiffness: &[f64]) -> Vec<DMat3> {
-    let rest = |e: usize| Quad::from(layout.edge_rest[e]).0;
+    let rest = |e: usize| layout.edge_rest[e];
     let mut prefix = Nines::zeros(layout.n_edges() + layout.n_blocks());
-    prefix_sums((layout, stiffness), rest, &layout.slot_bounds(), &mut prefix, &mut vec![0.0; layout.n_blocks()]);
+    prefix_sums(
+        (layout, stiffness),
+        Computed(rest),
+        &layout.slot_bounds(),
+        &mut prefix,
+        &mut vec![0.0; layout.n_blocks()],
+    );
     let mut moments = vec![DMat3::ZERO; layout.n_vertices()];
     chunks(&mut moments, |first, moments| {
         for (k, moment) in (first..).zip(moments) {

@@ -13,6 +13,7 @@ use pulp::bytemuck::cast_slice;
 use crate::analysis::{Layout, Spoke};
 use crate::nines::{Nine, NinesRef};
 use crate::quad::Quad;
+use crate::wide::Wide;
 
 /// Set in the edge of a spoke whose center is the second end of the edge.
 const SECOND: u32 = 1 << 31;
@@ -41,7 +42,12 @@ impl<'a> Flat<'a> {
     /// A position, and a fourth number that means nothing but is finite where positions are: three numbers are loaded in
     /// several steps, four in one.
     #[inline(always)]
-    pub(crate) fn get(self, i: usize) -> [f64; 4] {
+    pub(crate) fn get<W: Wide>(self, wide: W, i: usize) -> W::Four {
+        wide.four(self.numbers(i))
+    }
+
+    #[inline(always)]
+    pub(crate) fn numbers(self, i: usize) -> [f64; 4] {
         match self.0.get(3 * i..3 * i + 4) {
             Some(&[x, y, z, next]) => [x, y, z, next],
             _ => [self.0[3 * i], self.0[3 * i + 1], self.0[3 * i + 2], 0.0],
@@ -73,46 +79,65 @@ impl Stars {
         layout.offsets[i] as usize..layout.offsets[i + 1] as usize
     }
 
-    /// T_i; adds w ‖e'‖² of its spokes to `squares`, coordinate by coordinate.
+    /// T_i, its ninth number as the third of four; adds w ‖e'‖² of its spokes to `squares`, coordinate by coordinate.
     #[inline(always)]
-    pub(crate) fn moment(&self, layout: &Layout, now: Flat<'_>, i: usize, squares: &mut [f64; 4]) -> Nine {
-        let center = now.get(i);
+    pub(crate) fn moment<W: Wide>(
+        &self,
+        wide: W,
+        (layout, now): (&Layout, Flat<'_>),
+        i: usize,
+        squares: &mut W::Four,
+    ) -> (W::Eight, W::Four) {
+        let center = now.get(wide, i);
         let range = Stars::range(layout, i);
-        let mut sum = Nine::ZERO;
+        let (mut eight, mut ninth) = (wide.eight([0.0; 8]), wide.splat4(0.0));
         for (&j, &Quad(rest)) in self.neighbors[range.clone()].iter().zip(&self.spokes[range]) {
-            let end = now.get(j as usize);
-            let edge: [f64; 4] = std::array::from_fn(|c| center[c] - end[c]);
-            sum = sum.plus_outer(edge, rest);
-            *squares = std::array::from_fn(|c| squares[c] + edge[c] * edge[c] * rest[3]);
+            let edge = wide.sub4(center, now.get(wide, j as usize));
+            let (weight, rest) = (wide.splat4(rest[3]), wide.four(rest));
+            eight = wide.add8(eight, wide.mul8(wide.rows(edge), wide.columns(rest)));
+            ninth = wide.add4(ninth, wide.mul4(edge, rest));
+            *squares = wide.add4(*squares, wide.mul4(wide.mul4(edge, edge), weight));
         }
-        sum
+        (eight, ninth)
     }
 
     /// f_i.
     #[inline(always)]
-    pub(crate) fn pull(&self, layout: &Layout, now: Flat<'_>, rotations: NinesRef<'_>, i: usize) -> Quad {
-        let center = now.get(i);
+    pub(crate) fn pull<W: Wide>(
+        &self,
+        wide: W,
+        (layout, now): (&Layout, Flat<'_>),
+        rotations: NinesRef<'_>,
+        i: usize,
+    ) -> W::Four {
+        let center = now.get(wide, i);
         let range = Stars::range(layout, i);
-        let (mut sum, mut rests, mut drift) = (Nine::ZERO, [0.0; 4], [0.0; 4]);
+        let (mut eight, mut ninth) = (wide.eight([0.0; 8]), 0.0);
+        let (mut rests, mut drift) = (wide.splat4(0.0), wide.splat4(0.0));
         for (&j, &Quad(rest)) in self.neighbors[range.clone()].iter().zip(&self.spokes[range]) {
-            let end = now.get(j as usize);
-            sum = sum.plus_product(rotations.get(j as usize), rest);
-            rests = std::array::from_fn(|c| rests[c] + rest[c]);
-            drift = std::array::from_fn(|c| drift[c] + (center[c] - end[c]) * rest[3]);
+            let Nine { eight: r, ninth: r9 } = rotations.get(j as usize);
+            let edge = wide.sub4(center, now.get(wide, j as usize));
+            ninth += r9 * rest[2];
+            let (weight, rest) = (wide.splat4(rest[3]), wide.four(rest));
+            eight = wide.add8(eight, wide.mul8(wide.eight(r.0), wide.columns(rest)));
+            rests = wide.add4(rests, rest);
+            drift = wide.add4(drift, wide.mul4(edge, weight));
         }
-        let DVec3 { x, y, z } = sum.plus_product(rotations.get(i), rests).folded();
-        Quad([x - 2.0 * drift[0], y - 2.0 * drift[1], z - 2.0 * drift[2], 0.0])
+        let Nine { eight: r, ninth: r9 } = rotations.get(i);
+        eight = wide.add8(eight, wide.mul8(wide.eight(r.0), wide.columns(rests)));
+        let last = wide.add4(wide.splat4(ninth), wide.mul4(wide.splat4(r9), rests));
+        wide.sub4(wide.folded(eight, last), wide.add4(drift, drift))
     }
 
     /// The sum of what is given for the edges of a vertex, taken from the center outward.
     #[inline(always)]
-    pub(crate) fn gathered(&self, layout: &Layout, of_edges: &[Quad], i: usize) -> Quad {
-        let mut sum = [0.0; 4];
+    pub(crate) fn gathered<W: Wide>(&self, wide: W, layout: &Layout, of_edges: &[Quad], i: usize) -> W::Four {
+        let mut sum = wide.splat4(0.0);
         for &edge in &self.spoke_edges[Stars::range(layout, i)] {
-            let Quad(here) = of_edges[(edge & !SECOND) as usize];
-            let sign = u64::from(edge & SECOND) << 32;
-            sum = std::array::from_fn(|c| sum[c] + f64::from_bits(here[c].to_bits() ^ sign));
+            let sign = f64::from_bits(u64::from(edge & SECOND) << 32);
+            let here = wide.four(of_edges[(edge & !SECOND) as usize].0);
+            sum = wide.add4(sum, wide.xor4(here, wide.splat4(sign)));
         }
-        Quad(sum)
+        sum
     }
 }

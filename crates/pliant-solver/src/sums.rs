@@ -12,138 +12,280 @@
 //! Loops are compiled for several processors, and the best for the one at hand is taken; sums are the same in all.
 
 use glam::{DMat3, DVec3};
-use pulp::Arch;
 
 use crate::analysis::Layout;
 use crate::gathers::Gathers;
 use crate::neighborhoods::Neighborhoods;
-use crate::nines::{Nine, Nines, NinesRef};
+use crate::nines::{Eight, Nine, Nines, NinesRef};
 use crate::parallel::{chunks, pieces, pieces_with};
 use crate::quad::Quad;
 use crate::stars::Flat;
+use crate::wide::{Kernel, Wide, dispatch};
 
-/// e' of an edge.
-#[inline(always)]
-pub(crate) fn edge_now(layout: &Layout, now: Flat<'_>, e: usize) -> [f64; 4] {
-    let [i, j] = layout.edges[e];
-    let (a, b) = (now.get(i as usize), now.get(j as usize));
-    std::array::from_fn(|c| a[c] - b[c])
+/// A vector per edge.
+pub(crate) trait EdgeVectors: Copy + Sync {
+    /// The vector of edge `e`, and a fourth number that means nothing.
+    fn get<W: Wide>(self, wide: W, e: usize) -> W::Four;
+}
+
+/// e'.
+#[derive(Clone, Copy)]
+pub(crate) struct Now<'a> {
+    pub(crate) layout: &'a Layout,
+    pub(crate) positions: Flat<'a>,
+}
+
+impl Now<'_> {
+    pub(crate) fn vector(self, e: usize) -> DVec3 {
+        let [a, b] = self.layout.edges[e].map(|end| DVec3::from_slice(&self.positions.numbers(end as usize)));
+        a - b
+    }
+}
+
+impl EdgeVectors for Now<'_> {
+    #[inline(always)]
+    fn get<W: Wide>(self, wide: W, e: usize) -> W::Four {
+        let [i, j] = self.layout.edges[e];
+        wide.sub4(self.positions.get(wide, i as usize), self.positions.get(wide, j as usize))
+    }
+}
+
+/// Whatever a function says.
+#[derive(Clone, Copy)]
+pub(crate) struct Computed<F>(pub(crate) F);
+
+impl<F: Fn(usize) -> DVec3 + Copy + Sync> EdgeVectors for Computed<F> {
+    #[inline(always)]
+    fn get<W: Wide>(self, wide: W, e: usize) -> W::Four {
+        let DVec3 { x, y, z } = (self.0)(e);
+        wide.four([x, y, z, 0.0])
+    }
 }
 
 /// The prefix sums P for any vectors v_e instead of e'; `bounds` are the first slots of the blocks. Returns
 /// Σ_e d_e w_e ‖v_e‖², for which `partial` must have an entry per block.
 pub(crate) fn prefix_sums(
     (layout, stiffness): (&Layout, &[f64]),
-    vector: impl Fn(usize) -> [f64; 4] + Sync,
+    vectors: impl EdgeVectors,
     bounds: &[u32],
     prefix: &mut Nines,
     partial: &mut [f64],
 ) -> f64 {
     let slots = (&mut prefix.eights[..], &mut prefix.ninths[..]);
     pieces_with(bounds, slots, partial, |block, (eights, ninths)| {
-        Arch::new().dispatch(
-            #[inline(always)]
-            || {
-                let edges = layout.blocks[block] as usize..layout.blocks[block + 1] as usize;
-                let (mut running, mut squares) = (Nine::ZERO, [0.0; 4]);
-                (eights[0], ninths[0]) = (running.eight, running.ninth);
-                let slots = eights[1..].iter_mut().zip(&mut ninths[1..]);
-                let constants = layout.stars.edges[edges.clone()].iter().zip(&stiffness[edges.clone()]);
-                for ((e, (eight, ninth)), (&Quad(rest), &s)) in edges.zip(slots).zip(constants) {
-                    let v = vector(e);
-                    running = running.plus_outer(v, rest);
-                    squares = std::array::from_fn(|c| squares[c] + v[c] * v[c] * s);
-                    (*eight, *ninth) = (running.eight, running.ninth);
-                }
-                squares[0] + squares[1] + squares[2]
-            },
-        )
+        dispatch(PrefixBlock { layout, stiffness, vectors, block, eights, ninths })
     });
     partial[..layout.n_blocks()].iter().sum()
 }
 
-#[inline(always)]
-fn difference(prefix: NinesRef<'_>, [from, to]: [u32; 2]) -> Nine {
-    prefix.get(to as usize).minus(prefix.get(from as usize))
+/// P of one block.
+struct PrefixBlock<'a, V> {
+    layout: &'a Layout,
+    stiffness: &'a [f64],
+    vectors: V,
+    block: usize,
+    eights: &'a mut [Eight],
+    ninths: &'a mut [f64],
+}
+
+impl<V: EdgeVectors> Kernel for PrefixBlock<'_, V> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn run<W: Wide>(self, wide: W) -> f64 {
+        let PrefixBlock { layout, stiffness, vectors, block, eights, ninths } = self;
+        let edges = layout.blocks[block] as usize..layout.blocks[block + 1] as usize;
+        let (mut running, mut last, mut squares) = (wide.eight([0.0; 8]), wide.splat4(0.0), wide.splat4(0.0));
+        (eights[0], ninths[0]) = (Eight::ZERO, 0.0);
+        let slots = eights[1..].iter_mut().zip(&mut ninths[1..]);
+        let constants = layout.stars.edges[edges.clone()].iter().zip(&stiffness[edges.clone()]);
+        for ((e, (eight, ninth)), (&Quad(rest), &s)) in edges.zip(slots).zip(constants) {
+            let (v, rest) = (vectors.get(wide, e), wide.four(rest));
+            running = wide.add8(running, wide.mul8(wide.rows(v), wide.columns(rest)));
+            last = wide.add4(last, wide.mul4(v, rest));
+            squares = wide.add4(squares, wide.mul4(wide.mul4(v, v), wide.splat4(s)));
+            (*eight, *ninth) = (Eight(wide.array8(running)), wide.array4(last)[2]);
+        }
+        let [x, y, z, _] = wide.array4(squares);
+        x + y + z
+    }
 }
 
 /// T_k of a vertex with r > 1.
 #[inline(always)]
-pub(crate) fn run_sum(neighborhoods: &Neighborhoods, prefix: NinesRef<'_>, k: usize) -> Nine {
-    let mut sums = [Nine::ZERO; 2];
+pub(crate) fn run_sum<W: Wide>(
+    wide: W,
+    neighborhoods: &Neighborhoods,
+    prefix: NinesRef<'_>,
+    k: usize,
+) -> (W::Eight, f64) {
+    let mut sums = [(wide.eight([0.0; 8]), 0.0); 2];
     let (pairs, last) = neighborhoods.runs(k).as_chunks::<2>();
     for &[one, other] in pairs {
-        sums[0] = sums[0].plus(difference(prefix, one));
-        sums[1] = sums[1].plus(difference(prefix, other));
+        add_run(wide, &mut sums[0], prefix, one);
+        add_run(wide, &mut sums[1], prefix, other);
     }
-    let mut sum = sums[0].plus(sums[1]);
     for &one in last {
-        sum = sum.plus(difference(prefix, one));
+        add_run(wide, &mut sums[0], prefix, one);
     }
-    sum
+    (wide.add8(sums[0].0, sums[1].0), sums[0].1 + sums[1].1)
+}
+
+#[inline(always)]
+fn add_run<W: Wide>(wide: W, sum: &mut (W::Eight, f64), prefix: NinesRef<'_>, [from, to]: [u32; 2]) {
+    let (from, to) = (prefix.get(from as usize), prefix.get(to as usize));
+    sum.0 = wide.add8(sum.0, wide.sub8(wide.eight(to.eight.0), wide.eight(from.eight.0)));
+    sum.1 += to.ninth - from.ninth;
 }
 
 /// T_k of one vertex for any vectors instead of e'.
 pub(crate) fn neighborhood_sum(
     (layout, neighborhoods): (&Layout, &Neighborhoods),
-    vector: impl Fn(usize) -> [f64; 4],
+    vector: impl Fn(usize) -> DVec3,
     prefix: NinesRef<'_>,
     k: usize,
 ) -> DMat3 {
     if neighborhoods.r[k] == 1 {
         let edges = layout.spokes(k).iter().map(|spoke| spoke.edge as usize);
-        edges.fold(Nine::ZERO, |sum, e| sum.plus_outer(vector(e), layout.stars.edges[e].0)).into()
+        edges.fold(DMat3::ZERO, |sum, e| sum + outer(vector(e), layout.edge_rest[e] * layout.weight[e]))
     } else {
-        run_sum(neighborhoods, prefix, k).into()
+        dispatch(RunSum { neighborhoods, prefix, k })
+    }
+}
+
+/// T_k by itself.
+struct RunSum<'a> {
+    neighborhoods: &'a Neighborhoods,
+    prefix: NinesRef<'a>,
+    k: usize,
+}
+
+impl Kernel for RunSum<'_> {
+    type Output = DMat3;
+
+    #[inline(always)]
+    fn run<W: Wide>(self, wide: W) -> DMat3 {
+        let (eight, ninth) = run_sum(wide, self.neighborhoods, self.prefix, self.k);
+        Nine { eight: Eight(wide.array8(eight)), ninth }.into()
     }
 }
 
 /// f_e of every edge. Q is written to the slots of the prefix sums.
 pub(crate) fn edge_pulls(
-    (layout, stiffness): (&Layout, &[f64]),
-    (gathers, r): (&Gathers, &[u16]),
-    (now, rotations): (Flat<'_>, NinesRef<'_>),
+    (stiffness, r): (&[f64], &[u16]),
+    now: Now<'_>,
+    (gathers, rotations): (&Gathers, NinesRef<'_>),
     pulls: &mut [Quad],
     q: &mut Nines,
 ) {
     let m = pulls.len();
     let q = (&mut q.eights[..m], &mut q.ninths[..m]);
-    pieces(&layout.blocks, (pulls, q.0, q.1), |block, (pulls, eights, ninths)| {
-        Arch::new().dispatch(
-            #[inline(always)]
-            || {
-                gathers.sum(block, rotations, (eights, ninths));
-                let edges = layout.blocks[block] as usize..layout.blocks[block + 1] as usize;
-                let constants = layout.stars.edges[edges.clone()].iter().zip(&stiffness[edges.clone()]);
-                let sums = eights.iter().zip(ninths.iter());
-                for (((e, pull), (&eight, &ninth)), (&Quad(rest), &s)) in edges.zip(pulls).zip(sums).zip(constants) {
-                    let mut q = Nine { eight, ninth };
-                    for end in layout.edges[e].map(|end| end as usize) {
-                        if r[end] == 1 {
-                            q = q.plus(rotations.get(end));
-                        }
-                    }
-                    let edge = edge_now(layout, now, e);
-                    let DVec3 { x, y, z } = Nine::ZERO.plus_product(q, rest).folded();
-                    *pull = Quad([x - edge[0] * s, y - edge[1] * s, z - edge[2] * s, 0.0]);
-                }
-            },
-        );
+    pieces(&now.layout.blocks, (pulls, q.0, q.1), |block, (pulls, eights, ninths)| {
+        dispatch(PullBlock { stiffness, r, now, gathers, rotations, block, pulls, q: (eights, ninths) });
     });
 }
 
-/// b − A p', which is minus half the gradient of the energy: `pull` of every free vertex, 0 at fixed ones.
-pub(crate) fn vertex_pulls(is_fixed: &[bool], out: &mut [Quad], pull: impl Fn(usize) -> Quad + Sync) {
-    chunks(out, |first, out| {
-        Arch::new().dispatch(
-            #[inline(always)]
-            || {
-                for (i, out) in (first..).zip(out) {
-                    *out = if is_fixed[i] { Quad::ZERO } else { pull(i) };
+/// f_e of one block.
+struct PullBlock<'a> {
+    stiffness: &'a [f64],
+    r: &'a [u16],
+    now: Now<'a>,
+    gathers: &'a Gathers,
+    rotations: NinesRef<'a>,
+    block: usize,
+    pulls: &'a mut [Quad],
+    q: (&'a mut [Eight], &'a mut [f64]),
+}
+
+impl Kernel for PullBlock<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<W: Wide>(self, wide: W) {
+        let PullBlock { stiffness, r, now, gathers, rotations, block, pulls, q: (eights, ninths) } = self;
+        gathers.sum(wide, block, rotations, (&mut *eights, &mut *ninths));
+        let layout = now.layout;
+        let edges = layout.blocks[block] as usize..layout.blocks[block + 1] as usize;
+        let constants = layout.stars.edges[edges.clone()].iter().zip(&stiffness[edges.clone()]);
+        let sums = eights.iter().zip(ninths.iter());
+        for (((e, pull), (&Eight(eight), &ninth)), (&Quad(rest), &s)) in edges.zip(pulls).zip(sums).zip(constants) {
+            let (mut eight, mut ninth) = (wide.eight(eight), ninth);
+            for end in layout.edges[e].map(|end| end as usize) {
+                if r[end] == 1 {
+                    let own = rotations.get(end);
+                    (eight, ninth) = (wide.add8(eight, wide.eight(own.eight.0)), ninth + own.ninth);
                 }
-            },
-        );
-    });
+            }
+            let rest = wide.four(rest);
+            let turned = wide.folded(wide.mul8(eight, wide.columns(rest)), wide.mul4(wide.splat4(ninth), rest));
+            let drift = wide.mul4(now.get(wide, e), wide.splat4(s));
+            *pull = Quad(wide.array4(wide.sub4(turned, drift)));
+        }
+    }
+}
+
+/// What pulls at a vertex.
+pub(crate) trait VertexPull: Copy + Sync {
+    /// Three coordinates and a fourth number that means nothing.
+    fn get<W: Wide>(self, wide: W, i: usize) -> W::Four;
+}
+
+/// b − A p' where r = 1 everywhere.
+#[derive(Clone, Copy)]
+pub(crate) struct StarPull<'a> {
+    pub(crate) now: Now<'a>,
+    pub(crate) rotations: NinesRef<'a>,
+}
+
+impl VertexPull for StarPull<'_> {
+    #[inline(always)]
+    fn get<W: Wide>(self, wide: W, i: usize) -> W::Four {
+        let layout = self.now.layout;
+        layout.stars.pull(wide, (layout, self.now.positions), self.rotations, i)
+    }
+}
+
+/// b − A p' as the sum of the pulls of edges.
+#[derive(Clone, Copy)]
+pub(crate) struct GatheredPull<'a> {
+    pub(crate) layout: &'a Layout,
+    pub(crate) pulls: &'a [Quad],
+}
+
+impl VertexPull for GatheredPull<'_> {
+    #[inline(always)]
+    fn get<W: Wide>(self, wide: W, i: usize) -> W::Four {
+        self.layout.stars.gathered(wide, self.layout, self.pulls, i)
+    }
+}
+
+/// b − A p', which is minus half the gradient of the energy: `pull` of every free vertex, 0 at fixed ones.
+pub(crate) fn vertex_pulls(is_fixed: &[bool], pull: impl VertexPull, out: &mut [Quad]) {
+    chunks(out, |first, out| dispatch(PullChunk { is_fixed, pull, first, out }));
+}
+
+/// b − A p' of consecutive vertices.
+struct PullChunk<'a, P> {
+    is_fixed: &'a [bool],
+    pull: P,
+    first: usize,
+    out: &'a mut [Quad],
+}
+
+impl<P: VertexPull> Kernel for PullChunk<'_, P> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<W: Wide>(self, wide: W) {
+        let is_fixed = &self.is_fixed[self.first..][..self.out.len()];
+        for ((i, out), &is_fixed) in (self.first..).zip(self.out).zip(is_fixed) {
+            *out = Quad::ZERO;
+            if !is_fixed {
+                let [x, y, z, _] = wide.array4(self.pull.get(wide, i));
+                *out = Quad([x, y, z, 0.0]);
+            }
+        }
+    }
 }
 
 /// ⟨A, B⟩, the sum of products entry by entry.

@@ -1,0 +1,298 @@
+//! Registers of four and of eight numbers, whatever the processor has, and the choice of the best at run time.
+//!
+//! Every operation is the one of the standard for each number and nothing is fused, so results are the same on every
+//! processor.
+
+use pulp::{Scalar, Simd};
+
+/// A computation that is compiled for each kind of processor.
+pub(crate) trait Kernel {
+    type Output;
+
+    /// To be inlined always, with all that it calls: only then is it compiled for the processor.
+    fn run<W: Wide>(self, wide: W) -> Self::Output;
+}
+
+/// Runs a computation in the form that is best for this processor.
+pub(crate) fn dispatch<K: Kernel>(kernel: K) -> K::Output {
+    #[cfg(target_arch = "x86_64")]
+    {
+        use pulp::x86::{V3, V4};
+        if let Some(wide) = V4::try_new() {
+            return wide.vectorize(
+                #[inline(always)]
+                || kernel.run(wide),
+            );
+        }
+        if let Some(wide) = V3::try_new() {
+            return wide.vectorize(
+                #[inline(always)]
+                || kernel.run(wide),
+            );
+        }
+    }
+    kernel.run(Scalar::new())
+}
+
+/// What a processor computes with.
+pub(crate) trait Wide: Simd {
+    /// Four numbers.
+    type Four: Copy;
+    /// Eight numbers.
+    type Eight: Copy;
+
+    fn four(self, numbers: [f64; 4]) -> Self::Four;
+    fn array4(self, four: Self::Four) -> [f64; 4];
+    fn splat4(self, number: f64) -> Self::Four;
+    fn add4(self, a: Self::Four, b: Self::Four) -> Self::Four;
+    fn sub4(self, a: Self::Four, b: Self::Four) -> Self::Four;
+    fn mul4(self, a: Self::Four, b: Self::Four) -> Self::Four;
+    /// Exclusive or of the bits.
+    fn xor4(self, a: Self::Four, b: Self::Four) -> Self::Four;
+
+    fn eight(self, numbers: [f64; 8]) -> Self::Eight;
+    fn array8(self, eight: Self::Eight) -> [f64; 8];
+    fn add8(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
+    fn sub8(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
+    fn mul8(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
+
+    /// [x y z x | x y z y].
+    fn rows(self, xyz: Self::Four) -> Self::Eight;
+    /// [x x x z | y y y z].
+    fn columns(self, xyz: Self::Four) -> Self::Eight;
+    /// [a₀ + a₄ + a₃, a₁ + a₅ + a₇, a₂ + a₆ + b₂, …]; the last is anything.
+    fn folded(self, a: Self::Eight, b: Self::Four) -> Self::Four;
+}
+
+impl Wide for Scalar {
+    type Four = [f64; 4];
+    type Eight = [f64; 8];
+
+    #[inline(always)]
+    fn four(self, numbers: [f64; 4]) -> [f64; 4] {
+        numbers
+    }
+
+    #[inline(always)]
+    fn array4(self, four: [f64; 4]) -> [f64; 4] {
+        four
+    }
+
+    #[inline(always)]
+    fn splat4(self, number: f64) -> [f64; 4] {
+        [number; 4]
+    }
+
+    #[inline(always)]
+    fn add4(self, a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
+        std::array::from_fn(|l| a[l] + b[l])
+    }
+
+    #[inline(always)]
+    fn sub4(self, a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
+        std::array::from_fn(|l| a[l] - b[l])
+    }
+
+    #[inline(always)]
+    fn mul4(self, a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
+        std::array::from_fn(|l| a[l] * b[l])
+    }
+
+    #[inline(always)]
+    fn xor4(self, a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
+        std::array::from_fn(|l| f64::from_bits(a[l].to_bits() ^ b[l].to_bits()))
+    }
+
+    #[inline(always)]
+    fn eight(self, numbers: [f64; 8]) -> [f64; 8] {
+        numbers
+    }
+
+    #[inline(always)]
+    fn array8(self, eight: [f64; 8]) -> [f64; 8] {
+        eight
+    }
+
+    #[inline(always)]
+    fn add8(self, a: [f64; 8], b: [f64; 8]) -> [f64; 8] {
+        std::array::from_fn(|l| a[l] + b[l])
+    }
+
+    #[inline(always)]
+    fn sub8(self, a: [f64; 8], b: [f64; 8]) -> [f64; 8] {
+        std::array::from_fn(|l| a[l] - b[l])
+    }
+
+    #[inline(always)]
+    fn mul8(self, a: [f64; 8], b: [f64; 8]) -> [f64; 8] {
+        std::array::from_fn(|l| a[l] * b[l])
+    }
+
+    #[inline(always)]
+    fn rows(self, [x, y, z, _]: [f64; 4]) -> [f64; 8] {
+        [x, y, z, x, x, y, z, y]
+    }
+
+    #[inline(always)]
+    fn columns(self, [x, y, z, _]: [f64; 4]) -> [f64; 8] {
+        [x, x, x, z, y, y, y, z]
+    }
+
+    #[inline(always)]
+    fn folded(self, a: [f64; 8], b: [f64; 4]) -> [f64; 4] {
+        [a[0] + a[4] + a[3], a[1] + a[5] + a[7], a[2] + a[6] + b[2], 0.0]
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+mod x86 {
+    use std::arch::x86_64::{__m256d, __m512d};
+
+    use pulp::cast;
+    use pulp::x86::{V3, V4};
+
+    use super::Wide;
+
+    /// What both have in common.
+    macro_rules! fours {
+        () => {
+            type Four = __m256d;
+
+            #[inline(always)]
+            fn four(self, numbers: [f64; 4]) -> __m256d {
+                cast(numbers)
+            }
+
+            #[inline(always)]
+            fn array4(self, four: __m256d) -> [f64; 4] {
+                cast(four)
+            }
+
+            #[inline(always)]
+            fn splat4(self, number: f64) -> __m256d {
+                self.avx._mm256_set1_pd(number)
+            }
+
+            #[inline(always)]
+            fn add4(self, a: __m256d, b: __m256d) -> __m256d {
+                self.avx._mm256_add_pd(a, b)
+            }
+
+            #[inline(always)]
+            fn sub4(self, a: __m256d, b: __m256d) -> __m256d {
+                self.avx._mm256_sub_pd(a, b)
+            }
+
+            #[inline(always)]
+            fn mul4(self, a: __m256d, b: __m256d) -> __m256d {
+                self.avx._mm256_mul_pd(a, b)
+            }
+
+            #[inline(always)]
+            fn xor4(self, a: __m256d, b: __m256d) -> __m256d {
+                self.avx._mm256_xor_pd(a, b)
+            }
+        };
+    }
+
+    impl Wide for V3 {
+        fours!();
+        type Eight = [__m256d; 2];
+
+        #[inline(always)]
+        fn eight(self, [a, b, c, d, e, f, g, h]: [f64; 8]) -> [__m256d; 2] {
+            [cast([a, b, c, d]), cast([e, f, g, h])]
+        }
+
+        #[inline(always)]
+        fn array8(self, [low, high]: [__m256d; 2]) -> [f64; 8] {
+            let ([a, b, c, d], [e, f, g, h]): ([f64; 4], [f64; 4]) = (cast(low), cast(high));
+            [a, b, c, d, e, f, g, h]
+        }
+
+        #[inline(always)]
+        fn add8(self, a: [__m256d; 2], b: [__m256d; 2]) -> [__m256d; 2] {
+            [self.add4(a[0], b[0]), self.add4(a[1], b[1])]
+        }
+
+        #[inline(always)]
+        fn sub8(self, a: [__m256d; 2], b: [__m256d; 2]) -> [__m256d; 2] {
+            [self.sub4(a[0], b[0]), self.sub4(a[1], b[1])]
+        }
+
+        #[inline(always)]
+        fn mul8(self, a: [__m256d; 2], b: [__m256d; 2]) -> [__m256d; 2] {
+            [self.mul4(a[0], b[0]), self.mul4(a[1], b[1])]
+        }
+
+        #[inline(always)]
+        fn rows(self, xyz: __m256d) -> [__m256d; 2] {
+            let avx2 = self.avx2;
+            [avx2._mm256_permute4x64_pd::<0b00_10_01_00>(xyz), avx2._mm256_permute4x64_pd::<0b01_10_01_00>(xyz)]
+        }
+
+        #[inline(always)]
+        fn columns(self, xyz: __m256d) -> [__m256d; 2] {
+            let avx2 = self.avx2;
+            [avx2._mm256_permute4x64_pd::<0b10_00_00_00>(xyz), avx2._mm256_permute4x64_pd::<0b10_01_01_01>(xyz)]
+        }
+
+        #[inline(always)]
+        fn folded(self, [low, high]: [__m256d; 2], b: __m256d) -> __m256d {
+            let fourths = self.avx._mm256_unpackhi_pd(low, high);
+            let fourths = self.avx2._mm256_permute4x64_pd::<0b11_10_11_10>(fourths);
+            self.add4(self.add4(low, high), self.avx._mm256_blend_pd::<0b1100>(fourths, b))
+        }
+    }
+
+    impl Wide for V4 {
+        fours!();
+        type Eight = __m512d;
+
+        #[inline(always)]
+        fn eight(self, numbers: [f64; 8]) -> __m512d {
+            cast(numbers)
+        }
+
+        #[inline(always)]
+        fn array8(self, eight: __m512d) -> [f64; 8] {
+            cast(eight)
+        }
+
+        #[inline(always)]
+        fn add8(self, a: __m512d, b: __m512d) -> __m512d {
+            self.avx512f._mm512_add_pd(a, b)
+        }
+
+        #[inline(always)]
+        fn sub8(self, a: __m512d, b: __m512d) -> __m512d {
+            self.avx512f._mm512_sub_pd(a, b)
+        }
+
+        #[inline(always)]
+        fn mul8(self, a: __m512d, b: __m512d) -> __m512d {
+            self.avx512f._mm512_mul_pd(a, b)
+        }
+
+        #[inline(always)]
+        fn rows(self, xyz: __m256d) -> __m512d {
+            let order = cast([0u64, 1, 2, 0, 0, 1, 2, 1]);
+            self.avx512f._mm512_permutexvar_pd(order, self.avx512f._mm512_castpd256_pd512(xyz))
+        }
+
+        #[inline(always)]
+        fn columns(self, xyz: __m256d) -> __m512d {
+            let order = cast([0u64, 0, 0, 2, 1, 1, 1, 2]);
+            self.avx512f._mm512_permutexvar_pd(order, self.avx512f._mm512_castpd256_pd512(xyz))
+        }
+
+        #[inline(always)]
+        fn folded(self, a: __m512d, b: __m256d) -> __m256d {
+            let low = self.avx512f._mm512_castpd512_pd256(a);
+            let high = self.avx512f._mm512_extractf64x4_pd::<1>(a);
+            let fourths = self.avx._mm256_unpackhi_pd(low, high);
+            let fourths = self.avx2._mm256_permute4x64_pd::<0b11_10_11_10>(fourths);
+            self.add4(self.add4(low, high), self.avx._mm256_blend_pd::<0b1100>(fourths, b))
+        }
+    }
+}
