@@ -43,13 +43,12 @@ impl Gathers {
     ) {
         let (mut running, mut ninth) = (wide.eight([0.0; 8]), 0.0);
         for step in &self.blocks[block] {
-            let [a, b] = step.plus.map(|k| rotations.get(k as usize));
-            let [c, d] = step.minus.map(|k| rotations.get(k as usize));
-            let [one, other] = [(a, c), (b, d)].map(|(plus, minus)| {
-                (wide.sub8(wide.eight(plus.eight.0), wide.eight(minus.eight.0)), plus.ninth - minus.ninth)
-            });
-            running = wide.add8(running, wide.add8(one.0, other.0));
-            ninth += one.1 + other.1;
+            let (a, b) = (rotations.get(step.plus[0] as usize), rotations.get(step.plus[1] as usize));
+            let (c, d) = (rotations.get(step.minus[0] as usize), rotations.get(step.minus[1] as usize));
+            let one = wide.sub8(wide.eight(a.eight.0), wide.eight(c.eight.0));
+            let other = wide.sub8(wide.eight(b.eight.0), wide.eight(d.eight.0));
+            running = wide.add8(running, wide.add8(one, other));
+            ninth += (a.ninth - c.ninth) + (b.ninth - d.ninth);
             (eights[step.edge as usize], ninths[step.edge as usize]) = (Eight(wide.array8(running)), ninth);
         }
     }

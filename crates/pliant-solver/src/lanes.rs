@@ -1,6 +1,7 @@
 //! As many numbers side by side as the processor computes with at once, with the operators of one.
 //!
-//! Every operation is the one of the standard for each lane, so results are the same for any number of lanes.
+//! Every operation is the one of the standard for each lane, so results are the same for any number of lanes; only
+//! products with a sum are rounded once or twice, as the processor does.
 
 use std::ops::{Add, Div, Mul, Sub};
 
@@ -35,6 +36,18 @@ impl<S: Simd> Lanes<S> {
     #[inline(always)]
     pub(crate) fn splat(simd: S, number: f64) -> Lanes<S> {
         Lanes { simd, value: simd.splat_f64s(number) }
+    }
+
+    /// `self` · `factor` + `term`, rounded once where the processor can.
+    #[inline(always)]
+    pub(crate) fn times_plus(self, factor: Lanes<S>, term: Lanes<S>) -> Lanes<S> {
+        Lanes { simd: self.simd, value: self.simd.mul_add_e_f64s(self.value, factor.value, term.value) }
+    }
+
+    /// `minuend` − `self` · `factor`, rounded once where the processor can.
+    #[inline(always)]
+    pub(crate) fn times_from(self, factor: Lanes<S>, minuend: Lanes<S>) -> Lanes<S> {
+        Lanes { simd: self.simd, value: self.simd.neg_f64s(self.value) }.times_plus(factor, minuend)
     }
 
     #[inline(always)]

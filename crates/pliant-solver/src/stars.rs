@@ -94,9 +94,9 @@ impl Stars {
         for (&j, &Quad(rest)) in self.neighbors[range.clone()].iter().zip(&self.spokes[range]) {
             let edge = wide.sub4(center, now.get(wide, j as usize));
             let (weight, rest) = (wide.splat4(rest[3]), wide.four(rest));
-            eight = wide.add8(eight, wide.mul8(wide.rows(edge), wide.columns(rest)));
-            ninth = wide.add4(ninth, wide.mul4(edge, rest));
-            *squares = wide.add4(*squares, wide.mul4(wide.mul4(edge, edge), weight));
+            eight = wide.fma8(wide.rows(edge), wide.columns(rest), eight);
+            ninth = wide.fma4(edge, rest, ninth);
+            *squares = wide.fma4(wide.mul4(edge, edge), weight, *squares);
         }
         (eight, ninth)
     }
@@ -119,13 +119,13 @@ impl Stars {
             let edge = wide.sub4(center, now.get(wide, j as usize));
             ninth += r9 * rest[2];
             let (weight, rest) = (wide.splat4(rest[3]), wide.four(rest));
-            eight = wide.add8(eight, wide.mul8(wide.eight(r.0), wide.columns(rest)));
+            eight = wide.fma8(wide.eight(r.0), wide.columns(rest), eight);
             rests = wide.add4(rests, rest);
-            drift = wide.add4(drift, wide.mul4(edge, weight));
+            drift = wide.fma4(edge, weight, drift);
         }
         let Nine { eight: r, ninth: r9 } = rotations.get(i);
-        eight = wide.add8(eight, wide.mul8(wide.eight(r.0), wide.columns(rests)));
-        let last = wide.add4(wide.splat4(ninth), wide.mul4(wide.splat4(r9), rests));
+        eight = wide.fma8(wide.eight(r.0), wide.columns(rests), eight);
+        let last = wide.fma4(wide.splat4(r9), rests, wide.splat4(ninth));
         wide.sub4(wide.folded(eight, last), wide.add4(drift, drift))
     }
 

@@ -101,9 +101,9 @@ impl<V: EdgeVectors> Kernel for PrefixBlock<'_, V> {
         let constants = layout.stars.edges[edges.clone()].iter().zip(&stiffness[edges.clone()]);
         for ((e, (eight, ninth)), (&Quad(rest), &s)) in edges.zip(slots).zip(constants) {
             let (v, rest) = (vectors.get(wide, e), wide.four(rest));
-            running = wide.add8(running, wide.mul8(wide.rows(v), wide.columns(rest)));
-            last = wide.add4(last, wide.mul4(v, rest));
-            squares = wide.add4(squares, wide.mul4(wide.mul4(v, v), wide.splat4(s)));
+            running = wide.fma8(wide.rows(v), wide.columns(rest), running);
+            last = wide.fma4(v, rest, last);
+            squares = wide.fma4(wide.mul4(v, v), wide.splat4(s), squares);
             (*eight, *ninth) = (Eight(wide.array8(running)), wide.array4(last)[2]);
         }
         let [x, y, z, _] = wide.array4(squares);
@@ -210,7 +210,8 @@ impl Kernel for PullBlock<'_> {
         let sums = eights.iter().zip(ninths.iter());
         for (((e, pull), (&Eight(eight), &ninth)), (&Quad(rest), &s)) in edges.zip(pulls).zip(sums).zip(constants) {
             let (mut eight, mut ninth) = (wide.eight(eight), ninth);
-            for end in layout.edges[e].map(|end| end as usize) {
+            for end in layout.edges[e] {
+                let end = end as usize;
                 if r[end] == 1 {
                     let own = rotations.get(end);
                     (eight, ninth) = (wide.add8(eight, wide.eight(own.eight.0)), ninth + own.ninth);

@@ -1,7 +1,7 @@
 //! Registers of four and of eight numbers, whatever the processor has, and the choice of the best at run time.
 //!
-//! Every operation is the one of the standard for each number and nothing is fused, so results are the same on every
-//! processor.
+//! Every operation is the one of the standard for each number, so results are the same whether there are four or eight
+//! at once; only processors that cannot round a product with a sum once (before 2013) differ in the last digit.
 
 use pulp::{Scalar, Simd};
 
@@ -47,6 +47,8 @@ pub(crate) trait Wide: Simd {
     fn add4(self, a: Self::Four, b: Self::Four) -> Self::Four;
     fn sub4(self, a: Self::Four, b: Self::Four) -> Self::Four;
     fn mul4(self, a: Self::Four, b: Self::Four) -> Self::Four;
+    /// a b + c, rounded once where the processor can.
+    fn fma4(self, a: Self::Four, b: Self::Four, c: Self::Four) -> Self::Four;
     /// Exclusive or of the bits.
     fn xor4(self, a: Self::Four, b: Self::Four) -> Self::Four;
 
@@ -55,6 +57,8 @@ pub(crate) trait Wide: Simd {
     fn add8(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
     fn sub8(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
     fn mul8(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
+    /// a b + c, rounded once where the processor can.
+    fn fma8(self, a: Self::Eight, b: Self::Eight, c: Self::Eight) -> Self::Eight;
 
     /// [x y z x | x y z y].
     fn rows(self, xyz: Self::Four) -> Self::Eight;
@@ -96,6 +100,16 @@ impl Wide for Scalar {
     #[inline(always)]
     fn mul4(self, a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
         std::array::from_fn(|l| a[l] * b[l])
+    }
+
+    #[inline(always)]
+    fn fma4(self, a: [f64; 4], b: [f64; 4], c: [f64; 4]) -> [f64; 4] {
+        std::array::from_fn(|l| a[l] * b[l] + c[l])
+    }
+
+    #[inline(always)]
+    fn fma8(self, a: [f64; 8], b: [f64; 8], c: [f64; 8]) -> [f64; 8] {
+        std::array::from_fn(|l| a[l] * b[l] + c[l])
     }
 
     #[inline(always)]
@@ -189,6 +203,11 @@ mod x86 {
             }
 
             #[inline(always)]
+            fn fma4(self, a: __m256d, b: __m256d, c: __m256d) -> __m256d {
+                self.fma._mm256_fmadd_pd(a, b, c)
+            }
+
+            #[inline(always)]
             fn xor4(self, a: __m256d, b: __m256d) -> __m256d {
                 self.avx._mm256_xor_pd(a, b)
             }
@@ -223,6 +242,11 @@ mod x86 {
         #[inline(always)]
         fn mul8(self, a: [__m256d; 2], b: [__m256d; 2]) -> [__m256d; 2] {
             [self.mul4(a[0], b[0]), self.mul4(a[1], b[1])]
+        }
+
+        #[inline(always)]
+        fn fma8(self, a: [__m256d; 2], b: [__m256d; 2], c: [__m256d; 2]) -> [__m256d; 2] {
+            [self.fma4(a[0], b[0], c[0]), self.fma4(a[1], b[1], c[1])]
         }
 
         #[inline(always)]
@@ -272,6 +296,11 @@ mod x86 {
         #[inline(always)]
         fn mul8(self, a: __m512d, b: __m512d) -> __m512d {
             self.avx512f._mm512_mul_pd(a, b)
+        }
+
+        #[inline(always)]
+        fn fma8(self, a: __m512d, b: __m512d, c: __m512d) -> __m512d {
+            self.avx512f._mm512_fmadd_pd(a, b, c)
         }
 
         #[inline(always)]
