@@ -75,6 +75,7 @@
 //! depend on how many there are.
 
 mod analysis;
+mod edge_order;
 mod edge_set;
 mod energy;
 mod error;
