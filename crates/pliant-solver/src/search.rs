@@ -1,13 +1,14 @@
 //! Neighborhoods of many vertices at once, a bit for each.
 //!
 //! Vertices that are neighbors have nearly the same neighborhoods. So up to [`SOURCES`] of them share one breadth-first
-//! search, in which each vertex carries a word with a bit per source: a word moves along an edge in one operation. The
-//! sources whose neighborhood contains edge (i, j) are then word(i) | word(j). Along ascending edges this changes in the
+//! search, in which each vertex carries a word with a bit per source, and in each round takes up the words of its
+//! neighbors. The sources whose neighborhood contains edge (i, j) are then word(i) | word(j). Along ascending edges this changes in the
 //! bits of those whose run begins or ends just there: the cost is that of the ends of runs, not of what is between.
 
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use pulp::Arch;
 use rayon::prelude::*;
 
 use crate::SolveError;
@@ -76,92 +77,126 @@ pub(crate) fn work(r: &[u16], sources: &[u32]) -> u64 {
 /// Memory of a search, used for many batches.
 struct Search<'a> {
     layout: &'a Layout,
-    /// Where a vertex is among those reached, or [`UNPLACED`].
+    /// Where a vertex is in the region, or [`UNPLACED`].
     place: Vec<u32>,
-    reached: Vec<Reached>,
-    /// Places of vertices with sources that came by in the last and in this round.
-    frontier: Vec<u32>,
-    upcoming: Vec<u32>,
+    region: Region,
     edges: EdgeSet,
     /// (slot, source) of every end of a run, ascending by slot.
     ends: Vec<(u32, u32)>,
 }
 
-/// A vertex with the sources that have reached it: at all, in the last round, and in this one.
-struct Reached {
-    vertex: u32,
-    all: Word,
-    last: Word,
-    now: Word,
+/// The vertices that a search has come to, renumbered so that they lie together.
+#[derive(Default)]
+struct Region {
+    vertices: Vec<u32>,
+    /// Neighbors of a place that are in the region: the first of `neighbors[begin..begin + room]`, where room is the
+    /// vertex's number of spokes, are `n_neighbors` many.
+    begins: Vec<u32>,
+    n_neighbors: Vec<u32>,
+    neighbors: Vec<u32>,
+    /// Sources that have come to each place, before and after a round.
+    before: Vec<Word>,
+    after: Vec<Word>,
+    /// Places at which sources may still arrive.
+    active: Vec<u32>,
+    /// Places whose neighbors need not all be in the region.
+    rim: Vec<u32>,
 }
 
 impl<'a> Search<'a> {
     fn new(layout: &'a Layout) -> Search<'a> {
-        Search {
-            layout,
-            place: vec![UNPLACED; layout.n_vertices()],
-            reached: Vec::new(),
-            frontier: Vec::new(),
-            upcoming: Vec::new(),
-            edges: EdgeSet::new(layout.n_edges()),
-            ends: Vec::new(),
-        }
+        let place = vec![UNPLACED; layout.n_vertices()];
+        Search { layout, place, region: Region::default(), edges: EdgeSet::new(layout.n_edges()), ends: Vec::new() }
     }
 
     fn batch(&mut self, r: &[u16], sources: &[u32]) -> Batch {
         self.grow(r, sources);
         self.find_ends();
-        for reached in self.reached.drain(..) {
-            self.place[reached.vertex as usize] = UNPLACED;
-        }
+        self.region.vertices.iter().for_each(|&v| self.place[v as usize] = UNPLACED);
+        self.region.clear();
         runs_by_source(sources.len(), &self.ends)
     }
 
     /// Finds all vertices within r − 1 edges of each source with r > 1.
     fn grow(&mut self, r: &[u16], sources: &[u32]) {
-        let Search { layout, place, reached, frontier, upcoming, .. } = self;
         let mut by_size: Vec<(u16, usize)> =
             sources.iter().enumerate().map(|(bit, &k)| (r[k as usize], bit)).filter(|&(r, _)| r > 1).collect();
-        by_size.sort_unstable();
-        frontier.clear();
         let mut growing = EMPTY;
         for &(_, bit) in &by_size {
             growing[bit / 64] |= 1 << (bit % 64);
-            let mut own = EMPTY;
-            own[bit / 64] = 1 << (bit % 64);
-            place[sources[bit] as usize] = reached.len() as u32;
-            frontier.push(reached.len() as u32);
-            reached.push(Reached { vertex: sources[bit], all: own, last: own, now: EMPTY });
+            self.add(sources[bit]);
+            let own = self.region.before.len() - 1;
+            self.region.before[own][bit / 64] |= 1 << (bit % 64);
         }
+        by_size.sort_unstable();
         let mut by_size = by_size.into_iter().peekable();
         for distance in 1u16.. {
             while let Some((_, bit)) = by_size.next_if(|&(r, _)| r <= distance) {
                 growing[bit / 64] &= !(1 << (bit % 64));
             }
-            spread(layout, place, reached, growing, (frontier, upcoming));
-            frontier.iter().for_each(|&at| reached[at as usize].last = EMPTY);
-            for &at in upcoming.iter() {
-                let vertex = &mut reached[at as usize];
-                vertex.all = or(vertex.all, vertex.now);
-                vertex.last = std::mem::replace(&mut vertex.now, EMPTY);
+            if growing == EMPTY {
+                return;
             }
-            std::mem::swap(frontier, upcoming);
-            upcoming.clear();
-            if frontier.is_empty() {
+            self.add_neighbors(growing);
+            let region = &mut self.region;
+            if !Arch::new().dispatch(|| region.round(growing)) {
                 return;
             }
         }
     }
 
+    /// Adds a vertex to the region, as a neighbor of those that are in it.
+    fn add(&mut self, vertex: u32) {
+        let Search { layout, place, region, .. } = self;
+        let own = region.vertices.len();
+        let spokes = layout.spokes(vertex as usize);
+        place[vertex as usize] = own as u32;
+        region.vertices.push(vertex);
+        region.begins.push(region.neighbors.len() as u32);
+        region.n_neighbors.push(0);
+        region.neighbors.resize(region.neighbors.len() + spokes.len(), 0);
+        region.before.push(EMPTY);
+        region.after.push(EMPTY);
+        region.active.push(own as u32);
+        region.rim.push(own as u32);
+        for spoke in spokes {
+            let other = place[spoke.vertex as usize];
+            if other != UNPLACED {
+                region.join(own, other as usize);
+                region.join(other as usize, own);
+            }
+        }
+    }
+
+    /// Adds the neighbors of all places from which a source will grow.
+    fn add_neighbors(&mut self, growing: Word) {
+        let layout = self.layout;
+        let mut rim = std::mem::take(&mut self.region.rim);
+        rim.retain(|&at| {
+            let is_left = and(self.region.before[at as usize], growing) != EMPTY;
+            if is_left {
+                for spoke in layout.spokes(self.region.vertices[at as usize] as usize) {
+                    if self.place[spoke.vertex as usize] == UNPLACED {
+                        self.add(spoke.vertex);
+                    }
+                }
+            }
+            !is_left
+        });
+        self.region.rim.append(&mut rim);
+    }
+
     /// Lists where sources begin and end to contain edges, in ascending order.
     fn find_ends(&mut self) {
-        let Search { layout, place, reached, edges, ends, .. } = self;
-        for reached in reached.iter() {
-            layout.spokes(reached.vertex as usize).iter().for_each(|spoke| edges.insert(spoke.edge));
+        let Search { layout, place, region, edges, ends } = self;
+        for (&vertex, word) in region.vertices.iter().zip(&region.before) {
+            if *word != EMPTY {
+                layout.spokes(vertex as usize).iter().for_each(|spoke| edges.insert(spoke.edge));
+            }
         }
         let word = |vertex: u32| match place[vertex as usize] {
             UNPLACED => EMPTY,
-            at => reached[at as usize].all,
+            at => region.before[at as usize],
         };
         ends.clear();
         edges.drain_runs(|mut first, end| {
@@ -182,36 +217,41 @@ impl<'a> Search<'a> {
     }
 }
 
-/// One more edge for all sources that still grow.
-fn spread(
-    layout: &Layout,
-    place: &mut [u32],
-    reached: &mut Vec<Reached>,
-    growing: Word,
-    (frontier, upcoming): (&[u32], &mut Vec<u32>),
-) {
-    for &at in frontier {
-        let moving = and(reached[at as usize].last, growing);
-        if moving == EMPTY {
-            continue;
-        }
-        for spoke in layout.spokes(reached[at as usize].vertex as usize) {
-            let to = &mut place[spoke.vertex as usize];
-            if *to == UNPLACED {
-                *to = reached.len() as u32;
-                upcoming.push(*to);
-                reached.push(Reached { vertex: spoke.vertex, all: EMPTY, last: EMPTY, now: moving });
-                continue;
+impl Region {
+    fn clear(&mut self) {
+        let Region { vertices, begins, n_neighbors, neighbors, before, after, active, rim } = self;
+        [vertices, begins, n_neighbors, neighbors, active, rim].into_iter().for_each(Vec::clear);
+        [before, after].into_iter().for_each(Vec::clear);
+    }
+
+    fn join(&mut self, at: usize, neighbor: usize) {
+        self.neighbors[(self.begins[at] + self.n_neighbors[at]) as usize] = neighbor as u32;
+        self.n_neighbors[at] += 1;
+    }
+
+    /// One more edge for all sources that still grow; returns whether any source came anywhere.
+    #[inline(always)]
+    fn round(&mut self, growing: Word) -> bool {
+        let Region { begins, n_neighbors, neighbors, before, after, active, .. } = self;
+        let mut difference = EMPTY;
+        let mut n_active = 0;
+        for place in 0..active.len() {
+            let at = active[place] as usize;
+            let mut around = EMPTY;
+            for &other in &neighbors[begins[at] as usize..(begins[at] + n_neighbors[at]) as usize] {
+                around = or(around, before[other as usize]);
             }
-            let other = &mut reached[*to as usize];
-            let fresh = and_not(moving, other.all);
-            if fresh != EMPTY {
-                if other.now == EMPTY {
-                    upcoming.push(*to);
-                }
-                other.now = or(other.now, fresh);
-            }
+            let own = before[at];
+            let now = or(own, and(around, growing));
+            difference = or(difference, and_not(now, own));
+            after[at] = now;
+            // Where all have come that still grow, nothing will change, and it was the same before this round.
+            active[n_active] = at as u32;
+            n_active += usize::from(and_not(growing, own) != EMPTY);
         }
+        active.truncate(n_active);
+        std::mem::swap(before, after);
+        difference != EMPTY
     }
 }
 
@@ -242,17 +282,17 @@ fn runs_by_source(n_sources: usize, ends: &[(u32, u32)]) -> Batch {
     Batch { offsets, runs }
 }
 
-#[inline]
+#[inline(always)]
 fn or(a: Word, b: Word) -> Word {
     std::array::from_fn(|i| a[i] | b[i])
 }
 
-#[inline]
+#[inline(always)]
 fn and(a: Word, b: Word) -> Word {
     std::array::from_fn(|i| a[i] & b[i])
 }
 
-#[inline]
+#[inline(always)]
 fn and_not(a: Word, b: Word) -> Word {
     std::array::from_fn(|i| a[i] & !b[i])
 }
