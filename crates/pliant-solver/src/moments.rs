@@ -6,7 +6,6 @@ use rayon::prelude::*;
 
 use crate::analysis::Layout;
 use crate::neighborhoods::{Neighborhoods, block_of_slot};
-use crate::parallel::{chunks, pieces};
 
 /// xx, xy, xz, yy, yz, zz.
 type Symmetric = [f64; 6];
@@ -15,15 +14,17 @@ type Symmetric = [f64; 6];
 pub(crate) fn moments(layout: &Layout, neighborhoods: &Neighborhoods) -> Vec<DMat3> {
     let mut prefix = empty_prefix(layout, neighborhoods);
     if neighborhoods.has_runs() {
-        pieces(&layout.slot_bounds(), &mut prefix, &|block, slots| sum_block(layout, block, slots));
-    }
-    let mut moments = vec![DMat3::ZERO; layout.n_vertices()];
-    chunks(&mut moments, |first, moments| {
-        for (k, moment) in (first..).zip(moments) {
-            *moment = moment_of(layout, neighborhoods, &prefix, k);
+        let bounds = layout.slot_bounds();
+        let mut rest = &mut prefix[..];
+        let mut blocks = Vec::with_capacity(layout.n_blocks());
+        for block in 0..layout.n_blocks() {
+            let (slots, others) = rest.split_at_mut((bounds[block + 1] - bounds[block]) as usize);
+            blocks.push(slots);
+            rest = others;
         }
-    });
-    moments
+        blocks.par_iter_mut().enumerate().for_each(|(block, slots)| sum_block(layout, block, slots));
+    }
+    (0..layout.n_vertices()).into_par_iter().map(|k| moment_of(layout, neighborhoods, &prefix, k)).collect()
 }
 
 /// C_k of a few vertices: sums only the blocks that they need.

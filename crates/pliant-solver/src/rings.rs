@@ -43,7 +43,7 @@ impl Rings {
             has_negative: false,
             moments: Vec::new(),
         };
-        (0..layout.n_blocks()).for_each(|block| rings.recount(layout, block, |_| ()));
+        (0..layout.n_blocks()).for_each(|block| rings.recount(layout, block));
         rings.total();
         if rings.needs_moments() {
             rings.moments = moments(layout, &rings.neighborhoods);
@@ -52,15 +52,16 @@ impl Rings {
     }
 
     /// Other sizes. Only what belongs to vertices whose size differs is computed anew, but everything has the bits that
-    /// [`Rings::new`] would give it. Returns the edges whose d_e changed, ascending.
+    /// [`Rings::new`] would give it. Returns the blocks, ascending, outside of which neither d_e nor the transpose has
+    /// changed.
     ///
     /// # Errors
     /// As for [`Neighborhoods::new`]; nothing has changed then.
-    pub(crate) fn repaint(&mut self, analysis: &Analysis, rigidity: &Rigidity) -> Result<Vec<u32>, SolveError> {
+    pub(crate) fn repaint(&mut self, analysis: &Analysis, rigidity: &Rigidity) -> Result<Vec<usize>, SolveError> {
         let layout = &analysis.layout;
         let changes = self.neighborhoods.changes(analysis, rigidity)?;
         let is_little = changes.vertices.len() < layout.n_vertices() / MANY && !self.transpose.is_empty();
-        let mut is_touched = vec![!is_little; layout.n_blocks()];
+        let mut is_touched = vec![!is_little && !changes.vertices.is_empty(); layout.n_blocks()];
         if is_little {
             is_touched = self.transpose.update(layout, &self.neighborhoods, &changes);
         }
@@ -75,10 +76,8 @@ impl Rings {
         if !is_little || !self.neighborhoods.has_runs() {
             self.transpose = Transpose::new(layout, &self.neighborhoods);
         }
-        let mut changed = Vec::new();
-        for block in (0..layout.n_blocks()).filter(|&block| is_touched[block]) {
-            self.recount(layout, block, |edge| changed.push(edge));
-        }
+        let touched: Vec<usize> = (0..layout.n_blocks()).filter(|&block| is_touched[block]).collect();
+        touched.iter().for_each(|&block| self.recount(layout, block));
         self.total();
         if !self.needs_moments() {
             self.moments = Vec::new();
@@ -87,20 +86,17 @@ impl Rings {
         } else {
             update_moments(layout, &self.neighborhoods, &vertices, &mut self.moments);
         }
-        Ok(changed)
+        Ok(touched)
     }
 
-    /// d_e of a block; `changed` is told where it differs from before.
-    fn recount(&mut self, layout: &Layout, block: usize, mut changed: impl FnMut(u32)) {
+    /// d_e of a block.
+    fn recount(&mut self, layout: &Layout, block: usize) {
         let Rings { neighborhoods, transpose, counts, total_count, stiffness, .. } = self;
         for (e, by_runs) in (layout.blocks[block] as usize..).zip(transpose.counts(layout, block)) {
             let own = layout.edges[e].iter().filter(|&&end| neighborhoods.r[end as usize] == 1).count() as u32;
             let before = std::mem::replace(&mut counts[e], by_runs + own);
-            if before != counts[e] {
-                *total_count = *total_count + u64::from(counts[e]) - u64::from(before);
-                stiffness[e] = f64::from(counts[e]) * layout.weight[e];
-                changed(e as u32);
-            }
+            *total_count = *total_count + u64::from(counts[e]) - u64::from(before);
+            stiffness[e] = f64::from(counts[e]) * layout.weight[e];
         }
     }
 
@@ -156,10 +152,11 @@ mod tests {
                 painted.iter().for_each(|&v| r[v as usize] = size);
                 let rigidity = Rigidity::new(r.clone()).expect("in range");
                 let before = rings.counts.clone();
-                let changed = rings.repaint(&analysis, &rigidity).expect("one size per vertex");
-                let differ: Vec<u32> =
-                    (0..).zip(before.iter().zip(&rings.counts)).filter(|(_, (a, b))| a != b).map(|x| x.0).collect();
-                assert_eq!(changed, differ, "dab {dab}");
+                let touched = rings.repaint(&analysis, &rigidity).expect("one size per vertex");
+                for e in (0..before.len()).filter(|&e| before[e] != rings.counts[e]) {
+                    let block = analysis.layout.block_of_edge[e] as usize;
+                    assert!(touched.contains(&block), "dab {dab}, edge {e} of block {block}: {touched:?}");
+                }
                 assert_fresh(&analysis, &rings, &rigidity, &format!("from r to {}, dab {dab}", begin.max()));
             }
             for rigidity in [Rigidity::uniform(n, 5), Rigidity::uniform(n, 1), begin] {

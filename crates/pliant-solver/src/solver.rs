@@ -111,8 +111,8 @@ impl Solver {
         if *rigidity == self.rigidity {
             return Ok(());
         }
-        let changed = self.rings.repaint(&self.analysis, rigidity)?;
-        if !changed.is_empty() {
+        let touched = self.rings.repaint(&self.analysis, rigidity)?;
+        if !touched.is_empty() {
             let values = self.assemble(&self.rings.stiffness, &self.held.is_fixed);
             if let Err(error) = self.factor(values) {
                 // The sizes from before were there, so they fit.
