@@ -1,12 +1,13 @@
 //! What depends on the mesh and the weights alone.
 //!
-//! Vertices and edges are renumbered along a Hilbert curve, component by component, so that every later pass walks
-//! memory nearly in order. Callers never see this numbering: [`Solver`](crate::Solver) translates at its border.
+//! Vertices are renumbered along a Hilbert curve and edges along strips of faces, component by component, so that every
+//! later pass walks memory nearly in order. Callers never see this numbering: [`Solver`](crate::Solver) translates at its border.
 
 use std::sync::Arc;
 
 use glam::DVec3;
 
+use crate::edge_order::edge_order;
 use crate::hilbert::Curve;
 use crate::linear::Pattern;
 use crate::stars::Stars;
@@ -14,8 +15,10 @@ use crate::weights::edge_weights;
 use crate::{Mesh, Weights};
 
 /// Edges per block of prefix sums. Short enough that a difference of two sums within a block keeps twelve digits of a
-/// neighborhood's own sum; long enough that few runs are cut.
-const BLOCK: usize = 512;
+/// neighborhood's own sum: rounding of 2048 sums is some 50 unit roundoffs of their last, which is a hundred times a
+/// neighborhood of twenty edges. Long enough that few runs are cut: 512 has 3 % more ends of runs at r = 10 and 7 % at
+/// r = 20, 8192 has 1 % fewer.
+const BLOCK: usize = 2048;
 
 /// Locality (Hilbert) order, edge weights, rest edge vectors, fill-reducing order and symbolic factorization.
 /// O(n log n); once per mesh and kind of weights.
@@ -147,21 +150,6 @@ impl Layout {
 fn vertex_order(mesh: &Mesh, curve: &Curve) -> Vec<u32> {
     let mut keyed: Vec<(u32, u64, u32)> =
         (0..mesh.n_vertices()).map(|v| (mesh.components()[v], curve.position(mesh.positions()[v]), v as u32)).collect();
-    keyed.sort_unstable();
-    keyed.into_iter().map(|key| key.2).collect()
-}
-
-/// Edges by component, then along the curve by midpoint, then by number.
-fn edge_order(mesh: &Mesh, curve: &Curve) -> Vec<u32> {
-    let mut keyed: Vec<(u32, u64, u32)> = mesh
-        .edges()
-        .iter()
-        .enumerate()
-        .map(|(e, &[a, b])| {
-            let middle = mesh.positions()[a as usize].midpoint(mesh.positions()[b as usize]);
-            (mesh.components()[a as usize], curve.position(middle), e as u32)
-        })
-        .collect();
     keyed.sort_unstable();
     keyed.into_iter().map(|key| key.2).collect()
 }

@@ -96,6 +96,9 @@ pub enum SolveError {
         /// The vertex whose pivot was not positive.
         vertex: u32,
     },
+    /// The computation was stopped from outside.
+    #[error("canceled")]
+    Canceled,
     /// The neighborhoods or the factor need more memory or larger indices than there are.
     #[error("{what} is too large for this machine; use a smaller mesh or a smaller rigidity")]
     TooLarge {

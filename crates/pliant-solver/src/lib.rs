@@ -75,6 +75,7 @@
 //! depend on how many there are.
 
 mod analysis;
+mod edge_order;
 mod edge_set;
 mod energy;
 mod error;
@@ -86,14 +87,17 @@ mod iteration;
 mod lanes;
 mod linear;
 mod mesh;
+mod moments;
 mod neighborhoods;
 mod nines;
 mod parallel;
+mod progress;
 mod quad;
 mod rigid_fit;
 mod rigidity;
 mod rings;
 mod rotations;
+mod search;
 mod solver;
 mod stars;
 mod start;

@@ -78,7 +78,7 @@ impl Solver {
             let (got, expected) = (neighborhoods.r.len(), layout.n_vertices());
             return Err(SolveError::WrongLength { what: "neighborhoods", got, expected });
         }
-        let rings = Rings::new(layout, neighborhoods.into_updated(&analysis, rigidity)?);
+        let rings = Rings::new(layout, neighborhoods.updated(&analysis, rigidity)?);
         let held = Held::new(layout, held, &layout.rest, loose)?;
         let system = System::new(analysis.pattern.clone()).map_err(|error| explain(&analysis, error))?;
         let mut workspace = Workspace::new(layout);
@@ -111,10 +111,15 @@ impl Solver {
         if *rigidity == self.rigidity {
             return Ok(());
         }
-        let rings = Rings::new(&self.analysis.layout, self.rings.neighborhoods.updated(&self.analysis, rigidity)?);
-        let values = self.assemble(&rings.stiffness, &self.held.is_fixed);
-        self.factor(values)?;
-        self.rings = rings;
+        let touched = self.rings.repaint(&self.analysis, rigidity)?;
+        if !touched.is_empty() {
+            let values = self.assemble(&self.rings.stiffness, &self.held.is_fixed);
+            if let Err(error) = self.factor(values) {
+                // The sizes from before were there, so they fit.
+                self.rings.repaint(&self.analysis, &self.rigidity)?;
+                return Err(error);
+            }
+        }
         self.rigidity = rigidity.clone();
         self.workspace.fit(&self.analysis.layout, &self.rings);
         self.refresh();

@@ -3,80 +3,220 @@
 //! A run [from, to) of vertex k adds R_k to every edge in it: plus at slot `from`, minus at slot `to`, then a running
 //! sum along the block. The pluses and minuses are stored by slot, so that a block gathers them without any two
 //! threads writing to the same place. What would be subtracted after the last edge of a block is left out.
+//!
+//! Entries of a slot ascend by vertex, whatever the order in which they came to be: sums over them have the same bits
+//! after a repainting as after a new build. They lie in chunks of slots, of which a repainting writes only those anew
+//! that it touches.
+
+use rayon::prelude::*;
 
 use crate::analysis::Layout;
-use crate::neighborhoods::Neighborhoods;
+use crate::neighborhoods::{Changes, Neighborhoods};
+use crate::search::{Batch, SOURCES};
 
 /// Set in an entry that is subtracted.
-const MINUS: u32 = 1 << 31;
+pub(crate) const MINUS: u32 = 1 << 31;
 
-/// The ends of all runs, by slot.
+/// Slots per chunk: as many as a block has, some hundred kilobytes at r = 10.
+const SLOTS: usize = 2048;
+
+/// The ends of all runs, by slot. Memory: 4 bytes per end and 4 per slot.
 pub(crate) struct Transpose {
-    /// Entries of slot s: `entries[offsets[s]..offsets[s + 1]]`.
+    chunks: Vec<Chunk>,
+}
+
+/// The ends at [`SLOTS`] consecutive slots.
+#[derive(Clone, PartialEq, Eq, Debug)]
+struct Chunk {
+    /// Entries of the i-th slot: `entries[offsets[i]..offsets[i + 1]]`.
     offsets: Vec<u32>,
-    /// Vertex, with [`MINUS`] or without.
+    /// Vertex, with [`MINUS`] or without; ascending by vertex at each slot.
     entries: Vec<u32>,
 }
 
 impl Transpose {
-    /// O(number of runs and edges).
+    /// O(number of runs and edges), in parallel.
     pub(crate) fn new(layout: &Layout, neighborhoods: &Neighborhoods) -> Transpose {
         if !neighborhoods.has_runs() {
-            return Transpose { offsets: Vec::new(), entries: Vec::new() };
+            return Transpose { chunks: Vec::new() };
         }
-        let n_slots = layout.n_edges() + layout.n_blocks();
-        let mut is_last = vec![false; n_slots];
-        for block in 0..layout.n_blocks() {
-            is_last[layout.blocks[block + 1] as usize + block] = true;
-        }
-        let mut offsets = vec![0u32; n_slots + 1];
-        let ends = || {
-            (0..layout.n_vertices()).flat_map(|k| {
-                neighborhoods.runs(k).iter().flat_map(move |&[from, to]| [(from, k as u32), (to, k as u32 | MINUS)])
+        let closing = closing_slots(layout);
+        let batches = neighborhoods.batches();
+        let chunks = batches_by_chunk(n_chunks(layout), batches)
+            .par_iter()
+            .enumerate()
+            .map_init(Vec::new, |ends, (c, touching)| {
+                ends.clear();
+                for &b in touching {
+                    let members =
+                        (0..batches[b].offsets.len() - 1).map(|i| ((b * SOURCES + i) as u32, batches[b].runs(i)));
+                    members.for_each(|(k, runs)| collect_ends(k, runs, c, ends));
+                }
+                Chunk::of_ends(c, ends, &closing)
             })
-        };
-        for (slot, _) in ends().filter(|&(slot, _)| !is_last[slot as usize]) {
-            offsets[slot as usize + 1] += 1;
-        }
-        for slot in 0..n_slots {
-            offsets[slot + 1] += offsets[slot];
-        }
-        let mut next = offsets.clone();
-        let mut entries = vec![0u32; offsets[n_slots] as usize];
-        for (slot, entry) in ends().filter(|&(slot, _)| !is_last[slot as usize]) {
-            entries[next[slot as usize] as usize] = entry;
-            next[slot as usize] += 1;
-        }
-        Transpose { offsets, entries }
+            .collect();
+        Transpose { chunks }
     }
 
     /// Whether there is nothing to sum.
     pub(crate) fn is_empty(&self) -> bool {
-        self.entries.is_empty()
+        self.chunks.is_empty()
+    }
+
+    /// The ends at a slot, each a vertex, with [`MINUS`] or without, ascending by vertex.
+    #[inline]
+    pub(crate) fn entries(&self, slot: usize) -> &[u32] {
+        let (chunk, i) = (&self.chunks[slot / SLOTS], slot % SLOTS);
+        &chunk.entries[chunk.offsets[i] as usize..chunk.offsets[i + 1] as usize]
     }
 
     /// Calls `plus(k)` or `minus(k)` for every run that begins or ends at a slot.
     #[inline]
     pub(crate) fn at(&self, slot: usize, mut f: impl FnMut(usize, bool)) {
-        for &entry in &self.entries[self.offsets[slot] as usize..self.offsets[slot + 1] as usize] {
+        for &entry in self.entries(slot) {
             f((entry & !MINUS) as usize, entry & MINUS == 0);
         }
     }
 
-    /// d_e: how many neighborhoods contain each edge.
-    pub(crate) fn counts(&self, layout: &Layout, r: &[u16]) -> Vec<f64> {
-        let mut counts = Vec::with_capacity(layout.n_edges());
-        for block in 0..layout.n_blocks() {
-            let mut running = 0i64;
-            for e in layout.blocks[block] as usize..layout.blocks[block + 1] as usize {
-                if !self.is_empty() {
-                    self.at(e + block, |_, plus| running += if plus { 1 } else { -1 });
+    /// The number of neighborhoods with runs that contain each edge of a block.
+    pub(crate) fn counts(&self, layout: &Layout, block: usize) -> impl Iterator<Item = u32> {
+        let mut running = 0i32;
+        (layout.blocks[block] as usize..layout.blocks[block + 1] as usize).map(move |e| {
+            if !self.is_empty() {
+                let entries = self.entries(e + block);
+                let n_minus: i32 = entries.iter().map(|&entry| (entry >> 31) as i32).sum();
+                running += entries.len() as i32 - 2 * n_minus;
+            }
+            running as u32
+        })
+    }
+
+    /// Replaces the ends of changed vertices, whose old runs are still those of `old`. Returns, for every block, whether
+    /// it may have changed.
+    pub(crate) fn update(&mut self, layout: &Layout, old: &Neighborhoods, changes: &Changes) -> Vec<bool> {
+        let closing = closing_slots(layout);
+        let mut is_touched = vec![false; self.chunks.len()];
+        let mut is_changed = vec![false; layout.n_vertices()];
+        let mut ends = Vec::new();
+        for (i, &k) in changes.vertices.iter().enumerate() {
+            is_changed[k as usize] = true;
+            old.runs(k as usize).iter().flatten().for_each(|&slot| is_touched[slot as usize / SLOTS] = true);
+            for &[from, to] in changes.runs(i) {
+                ends.push((from, k));
+                if closing.binary_search(&to).is_err() {
+                    ends.push((to, k | MINUS));
                 }
-                let own = layout.edges[e].iter().filter(|&&end| r[end as usize] == 1).count() as i64;
-                counts.push((running + own) as f64);
             }
         }
-        counts
+        ends.sort_unstable_by_key(|&(slot, entry)| (slot, entry & !MINUS));
+        ends.iter().for_each(|&(slot, _)| is_touched[slot as usize / SLOTS] = true);
+        self.chunks.par_iter_mut().enumerate().filter(|(c, _)| is_touched[*c]).for_each(|(c, chunk)| {
+            let first = ends.partition_point(|&(slot, _)| (slot as usize) < c * SLOTS);
+            let end = ends.partition_point(|&(slot, _)| (slot as usize) < (c + 1) * SLOTS);
+            *chunk = chunk.merged(c, &ends[first..end], &is_changed);
+        });
+        let bounds = layout.slot_bounds();
+        let chunks_of = |block: usize| bounds[block] as usize / SLOTS..=(bounds[block + 1] as usize - 1) / SLOTS;
+        (0..layout.n_blocks()).map(|block| chunks_of(block).any(|c| is_touched[c])).collect()
+    }
+}
+
+impl Chunk {
+    /// Chunk `c` from its ends (slot, entry), those of one slot ascending by vertex.
+    fn of_ends(c: usize, ends: &[(u32, u32)], closing: &[u32]) -> Chunk {
+        let mut is_kept = [true; SLOTS];
+        let first = closing.partition_point(|&slot| (slot as usize) < c * SLOTS);
+        closing[first..]
+            .iter()
+            .map_while(|&slot| (slot as usize).checked_sub(c * SLOTS).filter(|&i| i < SLOTS))
+            .for_each(|i| is_kept[i] = false);
+        let place = |slot: u32| slot as usize % SLOTS;
+        let mut offsets = vec![0u32; SLOTS + 1];
+        for &(slot, _) in ends {
+            offsets[place(slot) + 1] += u32::from(is_kept[place(slot)]);
+        }
+        (0..SLOTS).for_each(|i| offsets[i + 1] += offsets[i]);
+        let mut next = offsets.clone();
+        let mut entries = vec![0u32; offsets[SLOTS] as usize];
+        for &(slot, entry) in ends.iter().filter(|&&(slot, _)| is_kept[place(slot)]) {
+            let at = &mut next[place(slot)];
+            entries[*at as usize] = entry;
+            *at += 1;
+        }
+        Chunk { offsets, entries }
+    }
+
+    /// Chunk `c` without the changed vertices, but with their new ends, sorted by slot and vertex.
+    fn merged(&self, c: usize, ends: &[(u32, u32)], is_changed: &[bool]) -> Chunk {
+        let mut offsets = Vec::with_capacity(SLOTS + 1);
+        let mut entries = Vec::with_capacity(self.entries.len() + ends.len());
+        let mut fresh = ends.iter().peekable();
+        offsets.push(0);
+        for i in 0..SLOTS {
+            let slot = (c * SLOTS + i) as u32;
+            for &entry in &self.entries[self.offsets[i] as usize..self.offsets[i + 1] as usize] {
+                let k = entry & !MINUS;
+                while let Some(&(_, fresh)) = fresh.next_if(|&&(at, fresh)| at == slot && fresh & !MINUS < k) {
+                    entries.push(fresh);
+                }
+                if !is_changed[k as usize] {
+                    entries.push(entry);
+                }
+            }
+            while let Some(&(_, fresh)) = fresh.next_if(|&&(at, _)| at == slot) {
+                entries.push(fresh);
+            }
+            offsets.push(entries.len() as u32);
+        }
+        entries.shrink_to_fit();
+        Chunk { offsets, entries }
+    }
+}
+
+fn n_chunks(layout: &Layout) -> usize {
+    (layout.n_edges() + layout.n_blocks()).div_ceil(SLOTS)
+}
+
+/// The last slot of every block, ascending.
+fn closing_slots(layout: &Layout) -> Vec<u32> {
+    layout.slot_bounds()[1..].iter().map(|bound| bound - 1).collect()
+}
+
+/// For every chunk, the batches with runs in it, ascending.
+fn batches_by_chunk(n_chunks: usize, batches: &[Batch]) -> Vec<Vec<usize>> {
+    let touched = |batch: &Batch| {
+        let mut is_touched = vec![false; n_chunks];
+        // Slots of one run lie in one block, but may lie in two chunks.
+        batch.runs.iter().flatten().for_each(|&slot| is_touched[slot as usize / SLOTS] = true);
+        (0..n_chunks).filter(|&c| is_touched[c]).collect::<Vec<_>>()
+    };
+    let by_batch: Vec<Vec<usize>> = batches.par_iter().map(touched).collect();
+    let mut by_chunk = vec![Vec::new(); n_chunks];
+    for (b, chunks) in by_batch.iter().enumerate() {
+        chunks.iter().for_each(|&c| by_chunk[c].push(b));
+    }
+    by_chunk
+}
+
+/// Appends those ends of the runs of vertex `k` that lie in chunk `c`.
+fn collect_ends(k: u32, runs: &[[u32; 2]], c: usize, ends: &mut Vec<(u32, u32)>) {
+    let slots = (c * SLOTS) as u32..((c + 1) * SLOTS) as u32;
+    let first = runs.partition_point(|&[_, to]| to < slots.start);
+    for &[from, to] in runs[first..].iter().take_while(|&&[from, _]| from < slots.end) {
+        if from >= slots.start {
+            ends.push((from, k));
+        }
+        if to < slots.end {
+            ends.push((to, k | MINUS));
+        }
+    }
+}
+
+#[cfg(test)]
+impl Transpose {
+    /// Everything, for comparison bit by bit.
+    pub(crate) fn contents(&self) -> Vec<(&[u32], &[u32])> {
+        self.chunks.iter().map(|chunk| (&chunk.offsets[..], &chunk.entries[..])).collect()
     }
 }
 
@@ -91,16 +231,32 @@ mod tests {
 
     #[test]
     fn counts_by_running_sums_are_those_of_plain_membership() {
-        let analysis = Analysis::new(Arc::new(bumpy_sheet(23)), Weights::Uniform);
+        let analysis = Analysis::new(Arc::new(bumpy_sheet(43)), Weights::Uniform);
         let layout = &analysis.layout;
+        assert!(n_chunks(layout) > 2, "a run should cross from one chunk to another");
         let neighborhoods =
             Neighborhoods::new(&analysis, &mixed_rigidity(layout.n_vertices(), 6)).expect("one size per vertex");
-        let counts = Transpose::new(layout, &neighborhoods).counts(layout, &neighborhoods.r);
-        let mut plain = vec![0.0; layout.n_edges()];
-        for k in 0..layout.n_vertices() {
-            neighborhoods.for_each_edge(layout, k, |e| plain[e] += 1.0);
+        let transpose = Transpose::new(layout, &neighborhoods);
+        let counts: Vec<u32> = (0..layout.n_blocks()).flat_map(|block| transpose.counts(layout, block)).collect();
+        let mut plain = vec![0; layout.n_edges()];
+        for k in (0..layout.n_vertices()).filter(|&k| neighborhoods.r[k] > 1) {
+            neighborhoods.for_each_edge(layout, k, |e| plain[e] += 1);
         }
         assert_eq!(counts, plain);
         assert_eq!(block_of_slot(layout, 0), 0);
+    }
+
+    #[test]
+    fn entries_ascend_by_vertex_and_none_lies_behind_the_last_edge_of_a_block() {
+        let analysis = Analysis::new(Arc::new(bumpy_sheet(43)), Weights::Uniform);
+        let layout = &analysis.layout;
+        let rigidity = mixed_rigidity(layout.n_vertices(), 9);
+        let transpose = Transpose::new(layout, &Neighborhoods::new(&analysis, &rigidity).expect("one size per vertex"));
+        for slot in 0..layout.n_edges() + layout.n_blocks() {
+            assert!(transpose.entries(slot).is_sorted_by(|a, b| a & !MINUS < b & !MINUS), "slot {slot}");
+        }
+        for slot in closing_slots(layout) {
+            assert!(transpose.entries(slot as usize).is_empty(), "slot {slot}");
+        }
     }
 }
