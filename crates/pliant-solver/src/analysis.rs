@@ -68,7 +68,7 @@ impl Analysis {
     /// Orders, weighs and analyzes. The costly part is the fill-reducing order.
     pub fn new(mesh: Arc<Mesh>, weights: Weights) -> Analysis {
         let layout = Layout::new(&mesh, edge_weights(&mesh, weights));
-        let (pattern, slots) = Pattern::new(layout.n_vertices(), &layout.edges);
+        let (pattern, slots) = Pattern::new(&layout.rest, &layout.edges);
         Analysis { mesh, weights, layout, pattern: Arc::new(pattern), slots }
     }
 

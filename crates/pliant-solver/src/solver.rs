@@ -315,7 +315,7 @@ impl Solver {
         let mut outcome = self.system.factor(&values);
         if outcome.is_ok()
             && self.analysis.weights() == Weights::Cotangent
-            && let Some(row) = self.system.doubtful_pivot(&values)
+            && let Some(row) = self.system.doubtful_pivot()
         {
             outcome = Err(FactorError::NonPositivePivot { row });
         }
