@@ -6,7 +6,7 @@ use crate::analysis::Layout;
 use crate::energy::{DIRECT_BELOW, Noise, component_frames, framed_terms, vertex_energies};
 use crate::gathers::Gathers;
 use crate::linear::System;
-use crate::nines::{Eight, Nine, Nines, NinesRef};
+use crate::nines::{Eight, Nine, Nines, NinesRef, Rotations};
 use crate::parallel::{CHUNK, chunks, chunks_with};
 use crate::quad::Quad;
 use crate::rings::Rings;
@@ -21,8 +21,8 @@ use crate::wide::{Kernel, Wide, dispatch};
 /// p' and R of every vertex, internal numbering.
 pub(crate) struct Pose {
     pub(crate) positions: Vec<DVec3>,
-    /// R_k as matrices, kept equal to `turns`; and a matrix of zeros after the last.
-    rotations: Nines,
+    /// R_k as matrices, kept equal to `turns`.
+    rotations: Rotations,
     /// R_k as unit quaternions.
     pub(crate) turns: Vec<DQuat>,
 }
@@ -45,7 +45,7 @@ impl Pose {
     pub(crate) fn at_rest(rest: &[DVec3]) -> Pose {
         let n = rest.len();
         let mut pose =
-            Pose { positions: rest.to_vec(), rotations: Nines::zeros(n + 1), turns: vec![DQuat::IDENTITY; n] };
+            Pose { positions: rest.to_vec(), rotations: Rotations::zeros(n), turns: vec![DQuat::IDENTITY; n] };
         pose.set_turns(|_| DQuat::IDENTITY);
         pose
     }
@@ -269,8 +269,8 @@ struct Turn<'a> {
     ties: Ties,
     first: usize,
     turns: &'a mut [DQuat],
-    eights: &'a mut [Eight],
-    ninths: &'a mut [f64],
+    eights: &'a mut [[Eight; 2]],
+    ninths: &'a mut [[f64; 2]],
 }
 
 impl Kernel for Turn<'_> {

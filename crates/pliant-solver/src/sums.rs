@@ -213,7 +213,7 @@ impl Kernel for PullBlock<'_> {
             for end in layout.edges[e] {
                 let end = end as usize;
                 if r[end] == 1 {
-                    let own = rotations.get(end);
+                    let own = rotations.get(2 * end);
                     (eight, ninth) = (wide.add8(eight, wide.eight(own.eight.0)), ninth + own.ninth);
                 }
             }
