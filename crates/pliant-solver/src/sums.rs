@@ -9,7 +9,7 @@
 //! | Q_e | 3 × 3 per edge | Σ_k M_ke R_k, as a running sum |
 //! | f_e | 3 per edge | w_e (Q_e e − d_e e'), the pull of an edge on its ends |
 //!
-//! Loops are compiled for several processors, and the best for the one at hand is taken; sums are the same in all.
+//! Loops are compiled for several processors, and the best form for the one at hand is taken ([`dispatch`]).
 
 use glam::{DMat3, DVec3};
 
