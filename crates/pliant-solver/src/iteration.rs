@@ -6,7 +6,7 @@ use crate::analysis::Layout;
 use crate::energy::{DIRECT_BELOW, Noise, component_frames, framed_terms, vertex_energies};
 use crate::gathers::Gathers;
 use crate::linear::System;
-use crate::nines::{Eight, Nine, Nines, NinesRef};
+use crate::nines::{Eight, Nine, Nines, NinesRef, Rotations};
 use crate::parallel::{CHUNK, chunks, chunks_with};
 use crate::quad::Quad;
 use crate::rings::Rings;
@@ -21,8 +21,8 @@ use crate::wide::{Kernel, Wide, dispatch};
 /// p' and R of every vertex, internal numbering.
 pub(crate) struct Pose {
     pub(crate) positions: Vec<DVec3>,
-    /// R_k as matrices, kept equal to `turns`; and a matrix of zeros after the last.
-    rotations: Nines,
+    /// R_k as matrices, kept equal to `turns`.
+    rotations: Rotations,
     /// R_k as unit quaternions.
     pub(crate) turns: Vec<DQuat>,
 }
@@ -45,7 +45,7 @@ impl Pose {
     pub(crate) fn at_rest(rest: &[DVec3]) -> Pose {
         let n = rest.len();
         let mut pose =
-            Pose { positions: rest.to_vec(), rotations: Nines::zeros(n + 1), turns: vec![DQuat::IDENTITY; n] };
+            Pose { positions: rest.to_vec(), rotations: Rotations::zeros(n), turns: vec![DQuat::IDENTITY; n] };
         pose.set_turns(|_| DQuat::IDENTITY);
         pose
     }
@@ -136,10 +136,12 @@ impl Workspace {
     ) {
         self.gradient(layout, rings, is_fixed, pose);
         system.solve_in_place(&mut self.rhs);
-        for ((p, correction), _) in pose.positions.iter_mut().zip(&self.rhs).zip(is_fixed).filter(|(_, fixed)| !**fixed)
-        {
-            *p += correction.xyz();
-        }
+        let corrections = &self.rhs;
+        chunks(&mut pose.positions, |first, positions| {
+            for (i, p) in (first..).zip(positions).filter(|(i, _)| !is_fixed[*i]) {
+                *p += corrections[i].xyz();
+            }
+        });
     }
 
     /// b − A p' into `rhs`, which is minus half the gradient of the energy; 0 at fixed vertices.
@@ -269,8 +271,8 @@ struct Turn<'a> {
     ties: Ties,
     first: usize,
     turns: &'a mut [DQuat],
-    eights: &'a mut [Eight],
-    ninths: &'a mut [f64],
+    eights: &'a mut [[Eight; 2]],
+    ninths: &'a mut [[f64; 2]],
 }
 
 impl Kernel for Turn<'_> {
@@ -299,5 +301,72 @@ impl Kernel for Turn<'_> {
         }
         let [x, y, z, _] = wide.array4(squares);
         Part { gain, squares: x + y + z, largest: largest.into_iter().fold(0.0, f64::max) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::rotations::best_rotation;
+    use crate::sums::outer;
+    use crate::test_support::{Random, bumpy_sheet, mixed_rigidity};
+    use crate::{Analysis, Neighborhoods, Rigidity, Weights};
+
+    #[test]
+    fn gradient_rotations_and_energy_are_those_of_plain_sums_for_any_sizes() {
+        let mesh = Arc::new(bumpy_sheet(23));
+        let (n, m) = (mesh.n_vertices(), mesh.n_edges());
+        let analysis = Analysis::new(mesh, Weights::Clamped);
+        let layout = &analysis.layout;
+        let mut random = Random::new(31);
+        for rigidity in [Rigidity::uniform(n, 1), Rigidity::uniform(n, 2), mixed_rigidity(n, 7), mixed_rigidity(n, 40)]
+        {
+            let neighborhoods = Neighborhoods::new(&analysis, &rigidity).expect("one size per vertex");
+            let rings = Rings::new(layout, neighborhoods);
+            let mut workspace = Workspace::new(layout);
+            workspace.fit(layout, &rings);
+            let mut pose = Pose::at_rest(&layout.rest);
+            pose.positions.iter_mut().for_each(|p| *p += random.vector() * 0.3);
+            let turns: Vec<DQuat> = (0..n).map(|_| DQuat::from_scaled_axis(random.vector())).collect();
+            pose.set_turns(|k| turns[k]);
+            let is_fixed: Vec<bool> = (0..n).map(|v| v % 17 == 3).collect();
+
+            let (mut q, mut d, mut t) = (vec![DMat3::ZERO; m], vec![0.0; m], vec![DMat3::ZERO; n]);
+            let now =
+                |e: usize| pose.positions[layout.edges[e][0] as usize] - pose.positions[layout.edges[e][1] as usize];
+            for (k, t) in t.iter_mut().enumerate() {
+                rings.neighborhoods.for_each_edge(layout, k, |e| {
+                    q[e] += pose.rotation(k);
+                    d[e] += 1.0;
+                    *t += outer(now(e), layout.edge_rest[e]) * layout.weight[e];
+                });
+            }
+            let (mut pulls, mut sizes) = (vec![DVec3::ZERO; n], vec![0.0; n]);
+            for (e, &[i, j]) in layout.edges.iter().enumerate() {
+                let (w, rest) = (layout.weight[e], layout.edge_rest[e]);
+                let pull = (q[e] * rest - now(e) * d[e]) * w;
+                let size = w * d[e] * (now(e).length() + rest.length());
+                for (end, sign) in [(i as usize, 1.0), (j as usize, -1.0)] {
+                    pulls[end] += pull * sign;
+                    sizes[end] += size;
+                }
+            }
+            workspace.gradient(layout, &rings, &is_fixed, &pose);
+            for i in 0..n {
+                let (got, expected) = (workspace.rhs[i].xyz(), if is_fixed[i] { DVec3::ZERO } else { pulls[i] });
+                let off = got.distance(expected);
+                assert!(off <= 1e-12 * sizes[i], "r to {}, vertex {i}: {got} and {expected}", rigidity.max());
+            }
+            let LocalOutcome { energy, .. } = workspace.local(layout, &rings, &mut pose, Ties::Nearest);
+            for k in 0..n {
+                let (got, expected) = (pose.turns[k], best_rotation(t[k], turns[k], Ties::Nearest));
+                let off = 1.0 - got.dot(expected).abs();
+                assert!(off < 1e-12, "r to {}, vertex {k}: {got} and {expected}", rigidity.max());
+            }
+            let direct = workspace.direct_energy(layout, &rings, &pose);
+            assert!((energy - direct).abs() <= 1e-12 * direct, "r to {}: {energy} and {direct}", rigidity.max());
+        }
     }
 }

@@ -9,7 +9,7 @@
 //! | Q_e | 3 × 3 per edge | Σ_k M_ke R_k, as a running sum |
 //! | f_e | 3 per edge | w_e (Q_e e − d_e e'), the pull of an edge on its ends |
 //!
-//! Loops are compiled for several processors, and the best for the one at hand is taken; sums are the same in all.
+//! Loops are compiled for several processors, and the best form for the one at hand is taken ([`dispatch`]).
 
 use glam::{DMat3, DVec3};
 
@@ -213,7 +213,7 @@ impl Kernel for PullBlock<'_> {
             for end in layout.edges[e] {
                 let end = end as usize;
                 if r[end] == 1 {
-                    let own = rotations.get(end);
+                    let own = rotations.get(2 * end);
                     (eight, ninth) = (wide.add8(eight, wide.eight(own.eight.0)), ninth + own.ninth);
                 }
             }

@@ -325,3 +325,52 @@ mod x86 {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every operation on whole numbers, which no order of rounding changes.
+    struct Everything;
+
+    impl Kernel for Everything {
+        type Output = ([[f64; 4]; 7], [[f64; 8]; 7]);
+
+        #[inline(always)]
+        fn run<W: Wide>(self, wide: W) -> Self::Output {
+            let (a, b, c) = (wide.four([1.0, 2.0, 3.0, 4.0]), wide.four([5.0, -7.0, 11.0, 13.0]), wide.splat4(-2.0));
+            let d = wide.eight([1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0]);
+            let e = wide.eight([9.0, -8.0, 7.0, -6.0, 5.0, -4.0, 3.0, -2.0]);
+            let [x, y, z, _] = wide.array4(wide.folded(d, b));
+            let sign = wide.xor4(a, wide.four([-0.0, 0.0, -0.0, 0.0]));
+            let fours = [wide.add4(a, b), wide.sub4(a, b), wide.mul4(a, b), wide.fma4(a, b, c), sign, c];
+            let eights = [wide.add8(d, e), wide.sub8(d, e), wide.mul8(d, e), wide.fma8(d, e, d), wide.rows(b)];
+            let (mut four, mut eight) = ([[x, y, z, 0.0]; 7], [wide.array8(wide.columns(b)); 7]);
+            for (out, value) in four.iter_mut().zip(fours) {
+                *out = wide.array4(value);
+            }
+            for (out, value) in eight.iter_mut().zip(eights) {
+                *out = wide.array8(value);
+            }
+            (four, eight)
+        }
+    }
+
+    #[test]
+    fn all_kinds_of_processors_compute_the_same() {
+        let plain = Everything.run(Scalar::new());
+        assert_eq!(plain.0[6][..3], [1.0 + 5.0 + 4.0, 2.0 + 6.0 + 8.0, 3.0 + 7.0 + 11.0], "folded");
+        assert_eq!(dispatch(Everything), plain, "the best of this processor");
+        #[cfg(target_arch = "x86_64")]
+        if let Some(wide) = pulp::x86::V3::try_new() {
+            assert_eq!(
+                wide.vectorize(
+                    #[inline(always)]
+                    || Everything.run(wide)
+                ),
+                plain,
+                "without registers of eight"
+            );
+        }
+    }
+}
