@@ -153,6 +153,14 @@ impl Workspace {
         self.prefix.resize(n_slots, DMat3::ZERO);
     }
 
+    /// b − A p' into `rhs`: minus half the gradient of E for the given R, 0 at fixed vertices.
+    pub(crate) fn gradient(&mut self, layout: &Layout, rings: &Rings, is_fixed: &[bool], pose: &Pose) {
+        let r = &rings.neighborhoods.r[..];
+        let now = (&pose.positions[..], &pose.rotations[..]);
+        edge_pulls(layout, (&rings.transpose, r), &rings.stiffness, now, &mut self.pulls);
+        vertex_pulls(layout, is_fixed, &self.pulls, &mut self.rhs);
+    }
+
     /// Given R, the p' of least energy (3.2.1): solves for the correction, p' ← p' + A⁻¹ (b − A p'), so that rounding of
     /// one solve is mended by the next and distance from the origin costs nothing.
     pub(crate) fn global(
@@ -163,10 +171,7 @@ impl Workspace {
         is_fixed: &[bool],
         pose: &mut Pose,
     ) {
-        let r = &rings.neighborhoods.r[..];
-        let now = (&pose.positions[..], &pose.rotations[..]);
-        edge_pulls(layout, (&rings.transpose, r), &rings.stiffness, now, &mut self.pulls);
-        vertex_pulls(layout, is_fixed, &self.pulls, &mut self.rhs);
+        self.gradient(layout, rings, is_fixed, pose);
         system.solve_in_place(&mut self.rhs);
         let corrections = &self.rhs;
         chunks(&mut pose.positions, |first, positions| {

@@ -8,10 +8,22 @@ use crate::analysis::Analysis;
 use crate::energy::vertex_energies;
 use crate::held::Held;
 use crate::iteration::{LocalOutcome, Pose, Rings, Workspace};
+use crate::lbfgs::{Lbfgs, Verdict};
 use crate::linear::{FactorError, System};
 use crate::mesh::is_usable;
 use crate::rotations::Ties;
 use crate::{LooseComponents, Neighborhoods, Rigidity, SolveError, Start, VertexId, Weights};
+
+/// How an iteration uses what the ones before have taught. E never rises with either.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Minimizer {
+    /// Every iteration is a global step and a local step, as in the paper.
+    #[default]
+    LocalGlobal,
+    /// L-BFGS with the factored system as preconditioner: mostly as dear as the plain iteration, and several times fewer.
+    /// The first iteration after a change of targets is plain.
+    Lbfgs,
+}
 
 /// What one iteration achieved.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,6 +68,9 @@ pub struct Solver {
     pub(crate) iteration: u64,
     /// Whether the last start was [`Start::Rest`]: then ties of the local step are left open as in the paper.
     pub(crate) from_rest: bool,
+    /// The memory of [`Minimizer::Lbfgs`].
+    lbfgs: Option<Box<Lbfgs>>,
+    pub local_steps: u64,
 }
 
 impl Solver {
@@ -93,6 +108,8 @@ impl Solver {
             comparable: None,
             iteration: 0,
             from_rest: false,
+            lbfgs: None,
+            local_steps: 0,
             rings,
             held,
             analysis,
@@ -100,6 +117,21 @@ impl Solver {
         let values = solver.assemble(&solver.rings.stiffness, &solver.held.is_fixed);
         solver.factor(values)?;
         Ok(solver)
+    }
+
+    /// Another way to minimize, from the pose as it is. What the other had learned is forgotten.
+    pub fn set_minimizer(&mut self, minimizer: Minimizer) {
+        if minimizer != self.minimizer() {
+            self.lbfgs = match minimizer {
+                Minimizer::LocalGlobal => None,
+                Minimizer::Lbfgs => Some(Box::new(Lbfgs::new(&self.analysis.layout.rest))),
+            };
+        }
+    }
+
+    /// The way to minimize.
+    pub fn minimizer(&self) -> Minimizer {
+        if self.lbfgs.is_some() { Minimizer::Lbfgs } else { Minimizer::LocalGlobal }
     }
 
     /// Other neighborhood sizes. Positions stay; rotations and energy become those of the new neighborhoods.
@@ -133,6 +165,7 @@ impl Solver {
         }
         self.held = held;
         self.comparable = None;
+        self.forget();
         Ok(())
     }
 
@@ -172,6 +205,9 @@ impl Solver {
     pub fn start(&mut self, start: Start) {
         self.iteration = 0;
         self.from_rest = start == Start::Rest;
+        if start != Start::Keep {
+            self.forget();
+        }
         match start {
             Start::Keep => {}
             Start::Rest => {
@@ -199,15 +235,40 @@ impl Solver {
             let free = self.pose.positions.iter_mut().zip(&self.held.is_fixed).filter(|(_, is_fixed)| !**is_fixed);
             free.for_each(|(p, _)| *p = DVec3::ZERO);
         }
-        self.workspace.global(layout, &self.rings, &mut self.system, &self.held.is_fixed, &mut self.pose);
+        let is_fixed = &self.held.is_fixed;
+        let (rings, system, pose) = (&self.rings, &mut self.system, &mut self.pose);
+        match (&mut self.lbfgs, self.comparable.take()) {
+            (Some(lbfgs), Some(energy)) if energy != 0.0 => {
+                self.comparable = Some(energy);
+                self.workspace.gradient(layout, rings, is_fixed, pose);
+                lbfgs.take_gradient(&self.workspace.rhs);
+                system.solve_in_place(&mut self.workspace.rhs);
+                lbfgs.propose(&self.workspace.rhs, energy, &mut pose.positions);
+            }
+            (lbfgs, comparable) => {
+                self.comparable = comparable;
+                if let Some(lbfgs) = lbfgs {
+                    lbfgs.interrupt();
+                }
+                self.workspace.global(layout, rings, system, is_fixed, pose);
+            }
+        }
         self.iteration += 1;
     }
 
     /// The best rotations for the current positions (3.2.2), and the energy.
     pub fn local_step(&mut self) -> StepReport {
         let ties = if self.from_rest { Ties::Rounding } else { Ties::Nudged };
-        let LocalOutcome { mut energy, noise } =
-            self.workspace.local(&self.analysis.layout, &self.rings, &mut self.pose, ties);
+        let LocalOutcome { mut energy, noise } = loop {
+            let outcome = self.workspace.local(&self.analysis.layout, &self.rings, &mut self.pose, ties);
+            self.local_steps += 1;
+            let before = self.comparable.unwrap_or(0.0);
+            let Some(lbfgs) = &mut self.lbfgs else { break outcome };
+            match lbfgs.judge(outcome.energy, outcome.noise.rise(before), &mut self.pose.positions) {
+                Verdict::Taken => break outcome,
+                Verdict::Again => {}
+            }
+        };
         if energy.abs() <= noise.floor() {
             energy = 0.0;
         }
@@ -276,8 +337,16 @@ impl Solver {
         self.analysis.layout.to_internal.iter().map(|&v| internal[v as usize]).collect()
     }
 
+    /// What was learned concerns another system or another pose.
+    pub(crate) fn forget(&mut self) {
+        if let Some(lbfgs) = &mut self.lbfgs {
+            lbfgs.forget();
+        }
+    }
+
     /// Rotations and energy for positions or neighborhoods that were replaced.
     fn refresh(&mut self) {
+        self.forget();
         self.comparable = None;
         self.local_step();
         self.comparable = None;

@@ -49,6 +49,7 @@ impl Solver {
                 },
             }
             self.comparable = None;
+            self.forget();
             for _ in 0..TRIAL_ITERATIONS {
                 self.step();
             }
