@@ -20,8 +20,8 @@ pub enum Minimizer {
     /// Every iteration is a global step and a local step, as in the paper.
     #[default]
     LocalGlobal,
-    /// L-BFGS with the factored system as preconditioner: mostly as dear as the plain iteration, and several times fewer.
-    /// The first iteration after a change of targets is plain.
+    /// L-BFGS with the factored system as preconditioner: hardly dearer than the plain iteration, and several times fewer.
+    /// The first iteration after a change of targets or of the start is plain.
     Lbfgs,
 }
 
@@ -34,7 +34,8 @@ pub struct StepReport {
     pub iteration: u64,
     /// (E before − E after) / |E before| (3.2.3); 0 when E before = 0. The first iteration after a change of targets, held
     /// vertices, rigidity, pose or start has nothing to compare with and reports 1, or 0 when E = 0. The first iteration
-    /// after [`Start::Auto`] is compared with the trial iterations of the candidate that won.
+    /// after [`Start::Auto`] is compared with the trial iteration of the candidate that won. One small value does not mean
+    /// that the end is near: under [`Minimizer::Lbfgs`] a step may have been cut short.
     pub relative_decrease: f64,
 }
 
@@ -47,10 +48,16 @@ pub struct StepReport {
 /// | `set_held` | numeric refactor |
 /// | `set_targets` | copies; a rigid fit per group if loose components follow |
 /// | `set_pose` | copies; one local step, with a full search for the best rotation where vertices turned far |
-/// | `start` | `Keep`, `Rest`: copies; `Auto`: up to twelve iterations and one solve |
-/// | `step` | one local/global iteration; no factorization, no allocation |
+/// | `start` | `Keep`, `Rest`: copies; `Auto`: up to four iterations and one solve |
+/// | `set_minimizer` | memory of 248 bytes per vertex for L-BFGS |
+/// | `step` | one iteration: one solve, one local step (seldom more under L-BFGS); no factorization, no allocation |
 ///
 /// Every call that can fail leaves the solver as it was when it does.
+///
+/// While handles are dragged: `set_minimizer(Minimizer::Lbfgs)` once, then for every frame `set_targets` and as many `step`s
+/// as there is time for, at least three if possible: the first spreads the motion of the handles, and only from the third
+/// on do they know more than the plain iteration did. What they learn serves the next frames too, until `set_held`,
+/// `set_rigidity`, `set_pose` or a `start` other than `Keep`. After a jump of the targets, `start(Start::Auto)` first.
 pub struct Solver {
     pub(crate) analysis: Arc<Analysis>,
     pub(crate) rings: Rings,
@@ -70,7 +77,6 @@ pub struct Solver {
     pub(crate) from_rest: bool,
     /// The memory of [`Minimizer::Lbfgs`].
     lbfgs: Option<Box<Lbfgs>>,
-    pub local_steps: u64,
 }
 
 impl Solver {
@@ -109,7 +115,6 @@ impl Solver {
             iteration: 0,
             from_rest: false,
             lbfgs: None,
-            local_steps: 0,
             rings,
             held,
             analysis,
@@ -132,6 +137,12 @@ impl Solver {
     /// The way to minimize.
     pub fn minimizer(&self) -> Minimizer {
         if self.lbfgs.is_some() { Minimizer::Lbfgs } else { Minimizer::LocalGlobal }
+    }
+
+    /// Pairs that L-BFGS remembers.
+    #[cfg(test)]
+    pub(crate) fn n_pairs(&self) -> usize {
+        self.lbfgs.as_ref().map_or(0, |lbfgs| lbfgs.n_pairs())
     }
 
     /// Other neighborhood sizes. Positions stay; rotations and energy become those of the new neighborhoods.
@@ -226,7 +237,7 @@ impl Solver {
     }
 
     /// Held vertices go exactly to their targets and the free ones to where the energy is least for the current
-    /// rotations (3.2.1).
+    /// rotations (3.2.1), or under [`Minimizer::Lbfgs`] to where it is thought to be least with the best rotations.
     pub fn global_step(&mut self) {
         let layout = &self.analysis.layout;
         self.held.place(&layout.rest, &mut self.pose.positions);
@@ -235,40 +246,45 @@ impl Solver {
             let free = self.pose.positions.iter_mut().zip(&self.held.is_fixed).filter(|(_, is_fixed)| !**is_fixed);
             free.for_each(|(p, _)| *p = DVec3::ZERO);
         }
-        let is_fixed = &self.held.is_fixed;
-        let (rings, system, pose) = (&self.rings, &mut self.system, &mut self.pose);
-        match (&mut self.lbfgs, self.comparable.take()) {
-            (Some(lbfgs), Some(energy)) if energy != 0.0 => {
-                self.comparable = Some(energy);
-                self.workspace.gradient(layout, rings, is_fixed, pose);
-                lbfgs.take_gradient(&self.workspace.rhs);
-                system.solve_in_place(&mut self.workspace.rhs);
-                lbfgs.propose(&self.workspace.rhs, energy, &mut pose.positions);
-            }
-            (lbfgs, comparable) => {
-                self.comparable = comparable;
-                if let Some(lbfgs) = lbfgs {
-                    lbfgs.interrupt();
-                }
-                self.workspace.global(layout, rings, system, is_fixed, pose);
-            }
-        }
+        self.move_free();
         self.iteration += 1;
     }
 
-    /// The best rotations for the current positions (3.2.2), and the energy.
-    pub fn local_step(&mut self) -> StepReport {
+    /// The free vertices' part of a global step: plain, or as L-BFGS proposes where E at the current pose is known.
+    fn move_free(&mut self) {
+        let Solver { rings, system, pose, workspace, .. } = self;
+        let (layout, is_fixed) = (&self.analysis.layout, &self.held.is_fixed);
+        if let Some(lbfgs) = &mut self.lbfgs {
+            if let Some(energy) = self.comparable.filter(|&energy| energy != 0.0 && !lbfgs.is_waiting()) {
+                workspace.gradient(layout, rings, is_fixed, pose);
+                lbfgs.take_gradient(&workspace.rhs);
+                system.solve_in_place(&mut workspace.rhs);
+                lbfgs.propose(&workspace.rhs, energy, &mut pose.positions);
+                return;
+            }
+            lbfgs.interrupt();
+        }
+        workspace.global(layout, rings, system, is_fixed, pose);
+    }
+
+    /// The best rotations for the current positions, and the energy; where L-BFGS went too far, first shorter steps.
+    fn turn_all(&mut self) -> LocalOutcome {
         let ties = if self.from_rest { Ties::Rounding } else { Ties::Nudged };
-        let LocalOutcome { mut energy, noise } = loop {
+        loop {
             let outcome = self.workspace.local(&self.analysis.layout, &self.rings, &mut self.pose, ties);
-            self.local_steps += 1;
-            let before = self.comparable.unwrap_or(0.0);
-            let Some(lbfgs) = &mut self.lbfgs else { break outcome };
-            match lbfgs.judge(outcome.energy, outcome.noise.rise(before), &mut self.pose.positions) {
-                Verdict::Taken => break outcome,
+            let Some(lbfgs) = &mut self.lbfgs else { return outcome };
+            let rounding = outcome.noise.rise(self.comparable.unwrap_or(0.0));
+            match lbfgs.judge(outcome.energy, rounding, &mut self.pose.positions) {
+                Verdict::Taken => return outcome,
                 Verdict::Again => {}
             }
-        };
+        }
+    }
+
+    /// The best rotations for the current positions (3.2.2), and the energy. Under [`Minimizer::Lbfgs`] the step before is
+    /// shortened, should the energy demand it.
+    pub fn local_step(&mut self) -> StepReport {
+        let LocalOutcome { mut energy, noise } = self.turn_all();
         if energy.abs() <= noise.floor() {
             energy = 0.0;
         }

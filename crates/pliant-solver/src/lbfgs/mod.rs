@@ -21,6 +21,8 @@
 //! *E never rises*: if E falls short of a small part of what the slope promises, the step is halved; if that does not
 //! help either, the plain step is taken instead, whose v is at hand, and the history begins anew.
 //!
+//! What A says of motions that no pair knows is stretched by what the newest pair says, up to twice: see [`history`].
+//!
 //! *From frame to frame of a drag* targets move. The first step is then plain, with the rotations of before: it spreads
 //! the motion of the handles over the surface. E was another function before, but its curvature is nearly the same, so
 //! the pairs stay. They go when A or the pose is replaced.
@@ -37,7 +39,7 @@ use crate::quad::Quad;
 
 /// The part of the decrease promised by the slope that is asked for (usual).
 const ENOUGH: f64 = 1e-4;
-/// Halvings before the plain step is taken. Each costs a local step.
+/// Halvings before the plain step is taken. Each costs a local step; five brought no more than two.
 const MOST_HALVINGS: u32 = 2;
 
 /// A step that waits for its energy.
@@ -117,6 +119,11 @@ impl Lbfgs {
         self.trial = None;
     }
 
+    /// Whether a step was proposed whose energy is not known yet.
+    pub(crate) fn is_waiting(&self) -> bool {
+        self.trial.is_some()
+    }
+
     /// Pairs remembered.
     #[cfg(test)]
     pub(crate) fn n_pairs(&self) -> usize {
@@ -141,11 +148,20 @@ impl Lbfgs {
         // Not a descent, or not a number.
         if !(direction.fd > 0.0 && direction.fd.is_finite()) {
             self.history.clear();
-            direction = Direction { fd: fv, ..Direction::default() };
+            direction = Direction::plain(fv);
         }
         self.before.copy_from_slice(positions);
         let slot = self.history.make_room();
-        self.trial = Some(Trial { length: 1.0, energy, fd: direction.fd, halvings: 0, is_plain: direction.slots().is_empty(), fv, products, slot });
+        self.trial = Some(Trial {
+            length: 1.0,
+            energy,
+            fd: direction.fd,
+            halvings: 0,
+            is_plain: direction.slots().is_empty(),
+            fv,
+            products,
+            slot,
+        });
         self.advance(&direction, slot, positions);
     }
 
@@ -177,7 +193,7 @@ impl Lbfgs {
         }
         self.history.clear();
         (trial.length, trial.fd, trial.is_plain) = (1.0, trial.fv, true);
-        let plain = Direction { fd: trial.fv, ..Direction::default() };
+        let plain = Direction::plain(trial.fv);
         let slot = trial.slot;
         self.advance(&plain, slot, positions);
         Verdict::Again
@@ -190,5 +206,97 @@ impl Lbfgs {
         };
         products.fs[slot] = fd * self.unit;
         self.pending = Some(Pending { slot, factor: self.unit / length, products, fv });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::test_support::Random;
+
+    type Vectors = Vec<DVec3>;
+
+    fn dot(a: &Vectors, b: &Vectors) -> f64 {
+        a.iter().zip(b).map(|(a, b)| a.dot(*b)).sum()
+    }
+
+    fn sum(a: &Vectors, factor: f64, b: &Vectors) -> Vectors {
+        a.iter().zip(b).map(|(a, b)| *a + *b * factor).collect()
+    }
+
+    /// The two loops as in any textbook, for pairs (s, y), oldest first.
+    fn textbook(f: &Vectors, pairs: &[(Vectors, Vectors)], solve: &dyn Fn(&Vectors) -> Vectors) -> Vectors {
+        let mut q = f.clone();
+        let mut alphas = Vec::new();
+        for (s, y) in pairs.iter().rev() {
+            let alpha = dot(s, &q) / dot(s, y);
+            q = sum(&q, -alpha, y);
+            alphas.push(alpha);
+        }
+        let stretch = pairs.last().map_or(1.0, |(s, y)| (dot(s, y) / dot(y, &solve(y))).clamp(1.0, 2.0));
+        let mut d: Vectors = solve(&q).iter().map(|&x| x * stretch).collect();
+        for ((s, y), alpha) in pairs.iter().zip(alphas.iter().rev()) {
+            let beta = dot(y, &d) / dot(s, y);
+            d = sum(&d, alpha - beta, s);
+        }
+        d
+    }
+
+    #[test]
+    fn steps_are_those_of_the_textbook_though_y_is_never_kept() {
+        let n = 50;
+        let mut random = Random::new(9);
+        // E = x·Hx with Hessian below A, both diagonal; the minimum is 0.
+        let a: Vec<f64> = (0..n).map(|_| 2.0 + random.signed()).collect();
+        let h: Vec<f64> = a.iter().map(|a| a * (0.51 + 0.49 * random.signed())).collect();
+        let energy = |x: &Vectors| x.iter().zip(&h).map(|(x, h)| x.length_squared() * h).sum::<f64>();
+        let pull = |x: &Vectors| -> Vectors { x.iter().zip(&h).map(|(x, h)| *x * -h).collect() };
+        let solve = |f: &Vectors| -> Vectors { f.iter().zip(&a).map(|(f, a)| *f / *a).collect() };
+        let quads = |x: &Vectors| -> Vec<Quad> { x.iter().map(|&x| x.into()).collect() };
+
+        let mut x: Vectors = (0..n).map(|_| random.vector()).collect();
+        let mut lbfgs = Lbfgs::new(&x);
+        let mut pairs: Vec<(Vectors, Vectors)> = Vec::new();
+        // More steps than pairs, so that some are forgotten.
+        for step in 0..3 * history::PAIRS {
+            let f = pull(&x);
+            let expected = textbook(&f, &pairs[pairs.len().saturating_sub(history::PAIRS)..], &solve);
+            let before = x.clone();
+            lbfgs.take_gradient(&quads(&f));
+            lbfgs.propose(&quads(&solve(&f)), energy(&before), &mut x);
+            let got = sum(&x, -1.0, &before);
+            // What is kept has seven digits; differences of products lose some.
+            let error = dot(&sum(&got, -1.0, &expected), &sum(&got, -1.0, &expected)) / dot(&expected, &expected);
+            assert!(error.sqrt() < 1e-4, "step {step}: off by {}", error.sqrt());
+            while lbfgs.judge(energy(&x), 0.0, &mut x) == Verdict::Again {}
+            let taken = sum(&x, -1.0, &before);
+            pairs.push((taken, sum(&f, -1.0, &pull(&x))));
+        }
+    }
+
+    #[test]
+    fn a_step_that_does_not_lower_the_energy_ends_as_the_plain_step() {
+        let x = vec![DVec3::X, DVec3::Y, DVec3::Z];
+        let pulls = |size: f64| -> Vec<Quad> { x.iter().map(|&x| Quad::from(x * size)).collect() };
+        let mut lbfgs = Lbfgs::new(&x);
+        let mut now = x.clone();
+        for size in [-1.0, -0.5] {
+            lbfgs.take_gradient(&pulls(size));
+            lbfgs.propose(&pulls(0.5 * size), 1.0, &mut now);
+            assert!(lbfgs.is_waiting());
+            if size == -1.0 {
+                assert_eq!(lbfgs.judge(0.9, 0.0, &mut now), Verdict::Taken);
+            }
+        }
+        let before = lbfgs.before.clone();
+        let mut tried = 0;
+        while lbfgs.judge(2.0, 0.0, &mut now) == Verdict::Again {
+            tried += 1;
+        }
+        assert_eq!(tried, MOST_HALVINGS + 1);
+        assert_eq!(lbfgs.n_pairs(), 0);
+        for (i, (got, before)) in now.iter().zip(&before).enumerate() {
+            assert_eq!(*got, *before + x[i] * -0.25, "vertex {i}");
+        }
     }
 }

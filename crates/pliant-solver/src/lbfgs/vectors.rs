@@ -24,7 +24,7 @@ pub(super) fn products(
     records: &[Record],
     partial: &mut [Partial],
 ) -> Products {
-    let one = |((((f, kept), v), records), partial): (((( &[Quad], &mut [Quad]), &[Quad]), &[Record]), &mut Partial)| {
+    let one = |((((f, kept), v), records), partial): ((((&[Quad], &mut [Quad]), &[Quad]), &[Record]), &mut Partial)| {
         pulp::Arch::new().dispatch(
             #[inline(always)]
             || {
@@ -66,25 +66,25 @@ pub(super) fn remember_change(
     pending: Option<(usize, f64)>,
     partial: &mut [Partial],
 ) -> f64 {
-    let one = |((((f, v), before), records), partial): ((((&[Quad], &[Quad]), &mut [Quad]), &mut [Record]), &mut Partial)| {
-        pulp::Arch::new().dispatch(
-            #[inline(always)]
-            || {
-                let mut sums = [0.0; 4];
-                for ((f, v), before) in f.iter().zip(v).zip(before.iter()) {
-                    (0..4).for_each(|lane| sums[lane] += f.0[lane] * v.0[lane]);
-                    _ = before;
-                }
-                if let Some((slot, factor)) = pending {
-                    for ((v, before), record) in v.iter().zip(before.iter()).zip(records) {
-                        record.0[slot][1] = std::array::from_fn(|c| ((before.0[c] - v.0[c]) * factor) as f32);
+    let one =
+        |((((f, v), before), records), partial): ((((&[Quad], &[Quad]), &mut [Quad]), &mut [Record]), &mut Partial)| {
+            pulp::Arch::new().dispatch(
+                #[inline(always)]
+                || {
+                    let mut sums = [0.0; 4];
+                    for (f, v) in f.iter().zip(v) {
+                        (0..4).for_each(|lane| sums[lane] += f.0[lane] * v.0[lane]);
                     }
-                }
-                before.copy_from_slice(v);
-                partial[0] = sums;
-            },
-        );
-    };
+                    if let Some((slot, factor)) = pending {
+                        for ((v, before), record) in v.iter().zip(before.iter()).zip(records) {
+                            record.0[slot][1] = std::array::from_fn(|c| ((before.0[c] - v.0[c]) * factor) as f32);
+                        }
+                    }
+                    before.copy_from_slice(v);
+                    partial[0] = sums;
+                },
+            );
+        };
     if is_worth_sharing(f.len()) {
         let lists = f.par_chunks(CHUNK).zip(v.par_chunks(CHUNK)).zip(v_before.par_chunks_mut(CHUNK));
         lists.zip(records.par_chunks_mut(CHUNK)).zip(partial.par_iter_mut()).for_each(one);
@@ -118,12 +118,12 @@ pub(super) fn advance(
             #[inline(always)]
             || {
                 for (((v, record), before), position) in v.iter().zip(records).zip(before).zip(positions) {
-                    let mut d = v.0;
+                    let mut d = v.0.map(|x| x * direction.v_part);
                     for &i in direction.slots() {
                         let [s, w] = record.0[i];
                         for lane in 0..4 {
-                            d[lane] += direction.s_part[i] * f64::from(s[lane])
-                                + direction.w_part[i] * f64::from(w[lane]);
+                            d[lane] +=
+                                direction.s_part[i] * f64::from(s[lane]) + direction.w_part[i] * f64::from(w[lane]);
                         }
                     }
                     record.0[slot][0] = d.map(|x| (x * unit) as f32);
