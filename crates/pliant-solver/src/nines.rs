@@ -68,10 +68,6 @@ pub(crate) struct Nines {
 }
 
 impl Nines {
-    pub(crate) fn zeros(n: usize) -> Nines {
-        Nines { eights: vec![Eight::ZERO; n], ninths: vec![0.0; n] }
-    }
-
     pub(crate) fn resize(&mut self, n: usize) {
         self.eights.resize(n, Eight::ZERO);
         self.ninths.resize(n, 0.0);

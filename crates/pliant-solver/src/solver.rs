@@ -8,11 +8,23 @@ use crate::analysis::Analysis;
 use crate::energy::vertex_energies;
 use crate::held::Held;
 use crate::iteration::{LocalOutcome, Pose, Workspace};
+use crate::lbfgs::{Lbfgs, Verdict};
 use crate::linear::{FactorError, System};
 use crate::mesh::is_usable;
 use crate::rings::Rings;
 use crate::rotations::Ties;
 use crate::{LooseComponents, Neighborhoods, Rigidity, SolveError, Start, VertexId, Weights};
+
+/// How an iteration uses what the ones before have taught. E never rises with either.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Minimizer {
+    /// Every iteration is a global step and a local step, as in the paper.
+    #[default]
+    LocalGlobal,
+    /// L-BFGS with the factored system as preconditioner: hardly dearer than the plain iteration, and several times fewer.
+    /// The first iteration after a change of targets or of the start is plain.
+    Lbfgs,
+}
 
 /// What one iteration achieved.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,7 +35,8 @@ pub struct StepReport {
     pub iteration: u64,
     /// (E before − E after) / |E before| (3.2.3); 0 when E before = 0. The first iteration after a change of targets, held
     /// vertices, rigidity, pose or start has nothing to compare with and reports 1, or 0 when E = 0. The first iteration
-    /// after [`Start::Auto`] is compared with the trial iterations of the candidate that won.
+    /// after [`Start::Auto`] is compared with the trial iteration of the candidate that won. One small value does not mean
+    /// that the end is near: under [`Minimizer::Lbfgs`] a step may have been cut short.
     pub relative_decrease: f64,
 }
 
@@ -36,10 +49,16 @@ pub struct StepReport {
 /// | `set_held` | numeric refactor |
 /// | `set_targets` | copies; a rigid fit per group if loose components follow |
 /// | `set_pose` | copies; one local step, with a full search for the best rotation where vertices turned far |
-/// | `start` | `Keep`, `Rest`: copies; `Auto`: up to twelve iterations and one solve |
-/// | `step` | one local/global iteration; no factorization, no allocation |
+/// | `start` | `Keep`, `Rest`: copies; `Auto`: up to four iterations and one solve |
+/// | `set_minimizer` | memory of 248 bytes per vertex for L-BFGS |
+/// | `step` | one iteration: one solve, one local step (seldom more under L-BFGS); no factorization, no allocation |
 ///
 /// Every call that can fail leaves the solver as it was when it does.
+///
+/// While handles are dragged: `set_minimizer(Minimizer::Lbfgs)` once, then for every frame `set_targets` and as many `step`s
+/// as there is time for, at least three if possible: the first spreads the motion of the handles, and only from the third
+/// on do they know more than the plain iteration did. What they learn serves the next frames too, until `set_held`,
+/// `set_rigidity`, `set_pose` or a `start` other than `Keep`. After a jump of the targets, `start(Start::Auto)` first.
 pub struct Solver {
     pub(crate) analysis: Arc<Analysis>,
     pub(crate) rings: Rings,
@@ -57,6 +76,8 @@ pub struct Solver {
     pub(crate) iteration: u64,
     /// Whether the last start was [`Start::Rest`]: then ties of the local step are left open as in the paper.
     pub(crate) from_rest: bool,
+    /// The memory of [`Minimizer::Lbfgs`].
+    lbfgs: Option<Box<Lbfgs>>,
 }
 
 impl Solver {
@@ -94,6 +115,7 @@ impl Solver {
             comparable: None,
             iteration: 0,
             from_rest: false,
+            lbfgs: None,
             rings,
             held,
             analysis,
@@ -101,6 +123,27 @@ impl Solver {
         let values = solver.assemble(&solver.rings.stiffness, &solver.held.is_fixed);
         solver.factor(values)?;
         Ok(solver)
+    }
+
+    /// Another way to minimize, from the pose as it is. What the other had learned is forgotten.
+    pub fn set_minimizer(&mut self, minimizer: Minimizer) {
+        if minimizer != self.minimizer() {
+            self.lbfgs = match minimizer {
+                Minimizer::LocalGlobal => None,
+                Minimizer::Lbfgs => Some(Box::new(Lbfgs::new(&self.analysis.layout.rest))),
+            };
+        }
+    }
+
+    /// The way to minimize.
+    pub fn minimizer(&self) -> Minimizer {
+        if self.lbfgs.is_some() { Minimizer::Lbfgs } else { Minimizer::LocalGlobal }
+    }
+
+    /// Pairs that L-BFGS remembers.
+    #[cfg(test)]
+    pub(crate) fn n_pairs(&self) -> usize {
+        self.lbfgs.as_ref().map_or(0, |lbfgs| lbfgs.n_pairs())
     }
 
     /// Other neighborhood sizes. Positions stay; rotations and energy become those of the new neighborhoods.
@@ -139,6 +182,7 @@ impl Solver {
         }
         self.held = held;
         self.comparable = None;
+        self.forget();
         Ok(())
     }
 
@@ -178,6 +222,9 @@ impl Solver {
     pub fn start(&mut self, start: Start) {
         self.iteration = 0;
         self.from_rest = start == Start::Rest;
+        if start != Start::Keep {
+            self.forget();
+        }
         match start {
             Start::Keep => {}
             Start::Rest => {
@@ -196,7 +243,7 @@ impl Solver {
     }
 
     /// Held vertices go exactly to their targets and the free ones to where the energy is least for the current
-    /// rotations (3.2.1).
+    /// rotations (3.2.1), or under [`Minimizer::Lbfgs`] to where it is thought to be least with the best rotations.
     pub fn global_step(&mut self) {
         let layout = &self.analysis.layout;
         self.held.place(&layout.rest, &mut self.pose.positions);
@@ -205,15 +252,45 @@ impl Solver {
             let free = self.pose.positions.iter_mut().zip(&self.held.is_fixed).filter(|(_, is_fixed)| !**is_fixed);
             free.for_each(|(p, _)| *p = DVec3::ZERO);
         }
-        self.workspace.global(layout, &self.rings, &mut self.system, &self.held.is_fixed, &mut self.pose);
+        self.move_free();
         self.iteration += 1;
     }
 
-    /// The best rotations for the current positions (3.2.2), and the energy.
-    pub fn local_step(&mut self) -> StepReport {
+    /// The free vertices' part of a global step: plain, or as L-BFGS proposes where E at the current pose is known.
+    fn move_free(&mut self) {
+        let Solver { rings, system, pose, workspace, .. } = self;
+        let (layout, is_fixed) = (&self.analysis.layout, &self.held.is_fixed);
+        if let Some(lbfgs) = &mut self.lbfgs {
+            if let Some(energy) = self.comparable.filter(|&energy| energy != 0.0 && !lbfgs.is_waiting()) {
+                workspace.gradient(layout, rings, is_fixed, pose);
+                lbfgs.take_gradient(&workspace.rhs);
+                system.solve_in_place(&mut workspace.rhs);
+                lbfgs.propose(&workspace.rhs, energy, &mut pose.positions);
+                return;
+            }
+            lbfgs.interrupt();
+        }
+        workspace.global(layout, rings, system, is_fixed, pose);
+    }
+
+    /// The best rotations for the current positions, and the energy; where L-BFGS went too far, first shorter steps.
+    fn turn_all(&mut self) -> LocalOutcome {
         let ties = if self.from_rest { Ties::Rounding } else { Ties::Nudged };
-        let LocalOutcome { mut energy, noise } =
-            self.workspace.local(&self.analysis.layout, &self.rings, &mut self.pose, ties);
+        loop {
+            let outcome = self.workspace.local(&self.analysis.layout, &self.rings, &mut self.pose, ties);
+            let Some(lbfgs) = &mut self.lbfgs else { return outcome };
+            let rounding = outcome.noise.rise(self.comparable.unwrap_or(0.0));
+            match lbfgs.judge(outcome.energy, rounding, &mut self.pose.positions) {
+                Verdict::Taken => return outcome,
+                Verdict::Again => {}
+            }
+        }
+    }
+
+    /// The best rotations for the current positions (3.2.2), and the energy. Under [`Minimizer::Lbfgs`] the step before is
+    /// shortened, should the energy demand it.
+    pub fn local_step(&mut self) -> StepReport {
+        let LocalOutcome { mut energy, noise } = self.turn_all();
         if energy.abs() <= noise.floor() {
             energy = 0.0;
         }
@@ -281,8 +358,16 @@ impl Solver {
         self.analysis.layout.to_internal.iter().map(|&v| internal[v as usize]).collect()
     }
 
+    /// What was learned concerns another system or another pose.
+    pub(crate) fn forget(&mut self) {
+        if let Some(lbfgs) = &mut self.lbfgs {
+            lbfgs.forget();
+        }
+    }
+
     /// Rotations and energy for positions or neighborhoods that were replaced.
     fn refresh(&mut self) {
+        self.forget();
         self.comparable = None;
         self.local_step();
         self.comparable = None;

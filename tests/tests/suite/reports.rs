@@ -70,7 +70,7 @@ fn a_report_has_the_documented_keys_in_order() {
     let mesh = json!({"vertices": 90, "surface_points": 90, "faces": 176, "edges": 264, "components": 1});
     assert_eq!(report["mesh"], mesh);
     assert_eq!(report["rigidity"], json!({"min": 2, "max": 2, "mean": 2.0}));
-    assert_eq!([&report["method"], &report["solver"], &report["weights"]], ["rring", "local-global", "clamped"]);
+    assert_eq!([&report["method"], &report["solver"], &report["weights"]], ["rring", "lbfgs", "clamped"]);
     assert_eq!([&report["threads"], &report["self_intersections"]], [&json!(1), &json!(0)]);
     assert_eq!(report["max_handle_error"], json!(0.0));
     assert_eq!(report["warnings"], json!([]));
@@ -98,6 +98,28 @@ fn intersections_are_counted_only_when_asked_for() {
     let mesh = folder.write("bar.obj", shape.obj());
     let report = deform(&folder, &mesh, &handles_json(&lift(&shape)), &folder.path("out.obj"), &[]);
     assert_eq!(report["self_intersections"], Value::Null);
+}
+
+#[test]
+fn both_solvers_say_their_name_and_find_the_same_minimum() {
+    let (folder, shape) = (Folder::new(), small_bar());
+    let mesh = folder.write("bar.obj", shape.obj());
+    let solve = |name: &str, start: &str| {
+        let more = ["--solver", name, "--start", start, "--tolerance", "1e-10", "--method", "arap"];
+        let report = deform(&folder, &mesh, &handles_json(&lift(&shape)), &folder.path("out.obj"), &more);
+        assert_eq!([&report["solver"], &report["converged"]], [&json!(name), &json!(true)], "from {start}");
+        let energies: Vec<f64> =
+            report["energies"].as_array().expect("a list").iter().map(|e| e.as_f64().expect("a number")).collect();
+        assert!(energies.is_sorted_by(|before, after| after <= before), "{name} from {start}: {energies:?}");
+        (energies.len(), *energies.last().expect("an iteration"))
+    };
+    for start in ["rest", "auto"] {
+        let (plain_count, plain) = solve("local-global", start);
+        let (count, energy) = solve("lbfgs", start);
+        // Plain iteration ends where it is slow, not where it has arrived.
+        assert!((energy - plain).abs() < 1e-6 * plain, "from {start}: {energy} instead of {plain}");
+        assert!(2 * count < plain_count, "from {start}: {count} iterations instead of {plain_count}");
+    }
 }
 
 #[test]

@@ -5,9 +5,9 @@ use std::time::Instant;
 
 use glam::DVec3;
 use pliant_meshfile::{Format, MeshFile, SaveError, Warning};
-use pliant_solver::{Start, VertexId, Weights};
+use pliant_solver::{Minimizer, Start, VertexId, Weights};
 
-use super::args::{DeformOptions, Method, StartChoice, WeightsChoice};
+use super::args::{DeformOptions, Method, SolverChoice, StartChoice, WeightsChoice};
 use super::console::Console;
 use super::failure::Failure;
 use super::handles_file;
@@ -138,6 +138,10 @@ fn settings(options: &DeformOptions) -> Settings {
             WeightsChoice::Clamped => Weights::Clamped,
             WeightsChoice::Cotangent => Weights::Cotangent,
             WeightsChoice::Uniform => Weights::Uniform,
+        },
+        minimizer: match options.solver {
+            SolverChoice::Lbfgs => Minimizer::Lbfgs,
+            SolverChoice::LocalGlobal => Minimizer::LocalGlobal,
         },
         start: match options.start {
             StartChoice::Auto => Start::Auto,

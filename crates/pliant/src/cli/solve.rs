@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use glam::DVec3;
 use pliant_solver::{
-    Analysis, LooseComponents, Mesh, Neighborhoods, Rigidity, SolveError, Solver, Start, VertexId, Weights,
+    Analysis, LooseComponents, Mesh, Minimizer, Neighborhoods, Rigidity, SolveError, Solver, Start, VertexId, Weights,
 };
 
 use super::console::Console;
@@ -23,11 +23,28 @@ pub(super) struct Problem {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Settings {
     pub(super) weights: Weights,
+    pub(super) minimizer: Minimizer,
     pub(super) start: Start,
     /// At least 1.
     pub(super) max_iterations: u64,
     /// Relative decrease of the energy below which the iteration ends (3.2.3); 0 runs all iterations.
     pub(super) tolerance: f64,
+}
+
+/// Iterations of L-BFGS that together must have lowered the energy by less than the tolerance. Plain iteration slows down
+/// evenly, so that its last decrease tells how things stand, and the paper looks at that alone. A step of L-BFGS may be
+/// cut short, or be the plain one because what was learned misled, and the next but one, with what that one taught, be
+/// long again: three in all.
+const LBFGS_QUIET: usize = 3;
+
+impl Settings {
+    /// Over how many iterations the decrease of the energy is measured.
+    fn quiet(&self) -> usize {
+        match self.minimizer {
+            Minimizer::LocalGlobal => 1,
+            Minimizer::Lbfgs => LBFGS_QUIET,
+        }
+    }
 }
 
 /// The end of the iteration.
@@ -83,7 +100,8 @@ fn prepare(
     console.progress(|| "factorizing".to_owned());
     let clock = Instant::now();
     let held = &problem.handles.held;
-    let solver = Solver::new(analysis, neighborhoods, &problem.rigidity, held, LooseComponents::KeepAtRest)?;
+    let mut solver = Solver::new(analysis, neighborhoods, &problem.rigidity, held, LooseComponents::KeepAtRest)?;
+    solver.set_minimizer(settings.minimizer);
     times.factorize = milliseconds(clock);
     Ok(solver)
 }
@@ -93,7 +111,7 @@ struct Iterated {
     converged: bool,
 }
 
-/// Global and local steps until the stop rule of 3.2.3 or the last iteration allowed.
+/// Iterations until the stop rule of 3.2.3 or the last iteration allowed.
 fn iterate(solver: &mut Solver, settings: Settings, times: &mut DeformTimes, console: &mut Console<'_>) -> Iterated {
     let clock = Instant::now();
     let mut energies: Vec<f64> = Vec::new();
@@ -109,7 +127,8 @@ fn iterate(solver: &mut Solver, settings: Settings, times: &mut DeformTimes, con
         for (list, ms) in stage_ms.iter_mut().zip([global, whole - global, whole]) {
             list.push(ms);
         }
-        converged = is_settled(energies.last().copied(), energy, settings.tolerance);
+        let before = energies.len().checked_sub(settings.quiet()).map(|place| energies[place]);
+        converged = is_settled(before, energy, settings.tolerance);
         energies.push(energy);
         console.progress(|| format!("iteration {}, energy {energy:.6e}", energies.len()));
         if converged && (settings.tolerance > 0.0 || energy == 0.0) {
@@ -124,8 +143,8 @@ fn iterate(solver: &mut Solver, settings: Settings, times: &mut DeformTimes, con
     Iterated { energies, converged }
 }
 
-/// Whether the energy is zero (the solver reports rounding as zero), or fell from `before` by less than `tolerance` of
-/// it (3.2.3). With a tolerance of 0 an energy that no longer falls at all has settled. Raw cotangents can make energies
+/// Whether the energy is zero (the solver reports rounding as zero), or fell from `before`, an iteration or some ago, by
+/// less than `tolerance` of it (3.2.3). With a tolerance of 0 an energy that no longer falls at all has settled. Raw cotangents can make energies
 /// negative.
 fn is_settled(before: Option<f64>, energy: f64, tolerance: f64) -> bool {
     let decrease = before.map(|before| (before - energy) / before.abs());

@@ -1,0 +1,142 @@
+//! The large half of L-BFGS: three passes over memory per step, shared among threads, with sums in a fixed order.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::history::{Direction, PAIRS, Products};
+use crate::parallel::{CHUNK, is_worth_sharing};
+use crate::quad::Quad;
+
+/// What one vertex remembers: s and w of every slot, side by side. Half the digits are plenty for a direction, and
+/// memory is what these passes wait for.
+#[derive(Clone, Copy, Debug, Default)]
+#[repr(C, align(32))]
+pub(super) struct Record([[[f32; 4]; 2]; PAIRS]);
+
+/// Products of one chunk: f·s and f·w of every slot, f·v_before.
+pub(super) type Partial = [[f64; 4]; 2 * PAIRS + 1];
+
+/// f with every s and w, and with `v_before`. `f` is copied to `f_kept`.
+pub(super) fn products(
+    f: &[Quad],
+    f_kept: &mut [Quad],
+    v_before: &[Quad],
+    records: &[Record],
+    partial: &mut [Partial],
+) -> Products {
+    let one = |((((f, kept), v), records), partial): ((((&[Quad], &mut [Quad]), &[Quad]), &[Record]), &mut Partial)| {
+        pulp::Arch::new().dispatch(
+            #[inline(always)]
+            || {
+                let mut sums = [[0.0; 4]; 2 * PAIRS + 1];
+                for (((f, kept), v), record) in f.iter().zip(kept).zip(v).zip(records) {
+                    *kept = *f;
+                    for (slot, [s, w]) in record.0.iter().enumerate() {
+                        for lane in 0..4 {
+                            sums[2 * slot][lane] += f.0[lane] * f64::from(s[lane]);
+                            sums[2 * slot + 1][lane] += f.0[lane] * f64::from(w[lane]);
+                        }
+                    }
+                    (0..4).for_each(|lane| sums[2 * PAIRS][lane] += f.0[lane] * v.0[lane]);
+                }
+                *partial = sums;
+            },
+        );
+    };
+    if is_worth_sharing(f.len()) {
+        let lists = f.par_chunks(CHUNK).zip(f_kept.par_chunks_mut(CHUNK)).zip(v_before.par_chunks(CHUNK));
+        lists.zip(records.par_chunks(CHUNK)).zip(partial.par_iter_mut()).for_each(one);
+    } else {
+        let lists = f.chunks(CHUNK).zip(f_kept.chunks_mut(CHUNK)).zip(v_before.chunks(CHUNK));
+        lists.zip(records.chunks(CHUNK)).zip(partial.iter_mut()).for_each(one);
+    }
+    let total = |at: usize| partial.iter().map(|sums| sums[at].iter().sum::<f64>()).sum::<f64>();
+    Products {
+        fs: std::array::from_fn(|slot| total(2 * slot)),
+        fw: std::array::from_fn(|slot| total(2 * slot + 1)),
+        fv_before: total(2 * PAIRS),
+    }
+}
+
+/// Keeps `v` as the next `v_before`, and the change of v times `factor` as w of `slot` if there is one; returns f·v.
+pub(super) fn remember_change(
+    (f, v): (&[Quad], &[Quad]),
+    v_before: &mut [Quad],
+    records: &mut [Record],
+    pending: Option<(usize, f64)>,
+    partial: &mut [Partial],
+) -> f64 {
+    let one =
+        |((((f, v), before), records), partial): ((((&[Quad], &[Quad]), &mut [Quad]), &mut [Record]), &mut Partial)| {
+            pulp::Arch::new().dispatch(
+                #[inline(always)]
+                || {
+                    let mut sums = [0.0; 4];
+                    for (f, v) in f.iter().zip(v) {
+                        (0..4).for_each(|lane| sums[lane] += f.0[lane] * v.0[lane]);
+                    }
+                    if let Some((slot, factor)) = pending {
+                        for ((v, before), record) in v.iter().zip(before.iter()).zip(records) {
+                            record.0[slot][1] = std::array::from_fn(|c| ((before.0[c] - v.0[c]) * factor) as f32);
+                        }
+                    }
+                    before.copy_from_slice(v);
+                    partial[0] = sums;
+                },
+            );
+        };
+    if is_worth_sharing(f.len()) {
+        let lists = f.par_chunks(CHUNK).zip(v.par_chunks(CHUNK)).zip(v_before.par_chunks_mut(CHUNK));
+        lists.zip(records.par_chunks_mut(CHUNK)).zip(partial.par_iter_mut()).for_each(one);
+    } else {
+        let lists = f.chunks(CHUNK).zip(v.chunks(CHUNK)).zip(v_before.chunks_mut(CHUNK));
+        lists.zip(records.chunks_mut(CHUNK)).zip(partial.iter_mut()).for_each(one);
+    }
+    partial.iter().map(|sums| sums[0].iter().sum::<f64>()).sum()
+}
+
+/// Where a step is to go.
+#[derive(Clone, Copy)]
+pub(super) struct Course<'a> {
+    pub(super) direction: &'a Direction,
+    /// Where `d` is remembered as s, times `unit`.
+    pub(super) slot: usize,
+    pub(super) unit: f64,
+}
+
+/// p' ← p'_before + d, with d remembered.
+pub(super) fn advance(
+    course: Course<'_>,
+    v: &[Quad],
+    records: &mut [Record],
+    before: &[DVec3],
+    positions: &mut [DVec3],
+) {
+    let Course { direction, slot, unit } = course;
+    let one = |(((v, records), before), positions): (((&[Quad], &mut [Record]), &[DVec3]), &mut [DVec3])| {
+        pulp::Arch::new().dispatch(
+            #[inline(always)]
+            || {
+                for (((v, record), before), position) in v.iter().zip(records).zip(before).zip(positions) {
+                    let mut d = v.0.map(|x| x * direction.v_part);
+                    for &i in direction.slots() {
+                        let [s, w] = record.0[i];
+                        for lane in 0..4 {
+                            d[lane] +=
+                                direction.s_part[i] * f64::from(s[lane]) + direction.w_part[i] * f64::from(w[lane]);
+                        }
+                    }
+                    record.0[slot][0] = d.map(|x| (x * unit) as f32);
+                    *position = *before + Quad(d).xyz();
+                }
+            },
+        );
+    };
+    if is_worth_sharing(v.len()) {
+        let lists = v.par_chunks(CHUNK).zip(records.par_chunks_mut(CHUNK)).zip(before.par_chunks(CHUNK));
+        lists.zip(positions.par_chunks_mut(CHUNK)).for_each(one);
+    } else {
+        let lists = v.chunks(CHUNK).zip(records.chunks_mut(CHUNK)).zip(before.chunks(CHUNK));
+        lists.zip(positions.chunks_mut(CHUNK)).for_each(one);
+    }
+}
