@@ -6,11 +6,13 @@
 use std::sync::Arc;
 
 use glam::DVec3;
+use rayon::prelude::*;
 
 use crate::edge_order::edge_order;
 use crate::hilbert::Curve;
 use crate::linear::Pattern;
 use crate::stars::Stars;
+use crate::topology::sides_of_faces;
 use crate::weights::edge_weights;
 use crate::{Mesh, Weights};
 
@@ -65,10 +67,20 @@ pub(crate) struct Layout {
 }
 
 impl Analysis {
-    /// Orders, weighs and analyzes. The costly part is the fill-reducing order.
+    /// Orders, weighs and analyzes. The costly parts are the fill-reducing order and the order of the edges.
     pub fn new(mesh: Arc<Mesh>, weights: Weights) -> Analysis {
-        let layout = Layout::new(&mesh, edge_weights(&mesh, weights));
-        let (pattern, slots) = Pattern::new(&layout.rest, &layout.edges);
+        let curve = Curve::around(mesh.positions());
+        let numbering = Numbering::new(&mesh, &curve);
+        let ends: Vec<[u32; 2]> = mesh.edges().iter().map(|&edge| numbering.ends(edge)).collect();
+        let ((pattern, slots), (order, mesh_weights)) = rayon::join(
+            || Pattern::new(&numbering.rest, &ends),
+            || {
+                let sides = sides_of_faces(&mesh);
+                (edge_order(&mesh, &sides, &curve), edge_weights(&mesh, &sides, weights))
+            },
+        );
+        let layout = Layout::new(numbering, &order, (&ends, &mesh_weights));
+        let slots = order.iter().map(|&e| slots[e as usize]).collect();
         Analysis { mesh, weights, layout, pattern: Arc::new(pattern), slots }
     }
 
@@ -83,26 +95,43 @@ impl Analysis {
     }
 }
 
-impl Layout {
-    fn new(mesh: &Mesh, mesh_weights: Vec<f64>) -> Layout {
-        let curve = Curve::around(mesh.positions());
-        let to_caller = vertex_order(mesh, &curve);
+/// The internal numbering of the vertices: by component, then along the curve, then by number.
+struct Numbering {
+    to_internal: Vec<u32>,
+    to_caller: Vec<u32>,
+    rest: Vec<DVec3>,
+    component: Vec<u32>,
+}
+
+impl Numbering {
+    fn new(mesh: &Mesh, curve: &Curve) -> Numbering {
+        let keys = mesh.positions().par_iter().zip(mesh.components()).zip(0u32..mesh.n_vertices() as u32);
+        let mut keyed: Vec<(u32, u64, u32)> =
+            keys.map(|((&p, &component), v)| (component, curve.position(p), v)).collect();
+        keyed.par_sort_unstable();
+        let to_caller: Vec<u32> = keyed.into_iter().map(|key| key.2).collect();
         let mut to_internal = vec![0u32; to_caller.len()];
         for (internal, &caller) in to_caller.iter().enumerate() {
             to_internal[caller as usize] = internal as u32;
         }
-        let rest: Vec<DVec3> = to_caller.iter().map(|&v| mesh.positions()[v as usize]).collect();
-        let component: Vec<u32> = to_caller.iter().map(|&v| mesh.components()[v as usize]).collect();
+        let rest = to_caller.iter().map(|&v| mesh.positions()[v as usize]).collect();
+        let component = to_caller.iter().map(|&v| mesh.components()[v as usize]).collect();
+        Numbering { to_internal, to_caller, rest, component }
+    }
 
-        let order = edge_order(mesh, &curve);
-        let edges: Vec<[u32; 2]> = order
-            .iter()
-            .map(|&e| {
-                let [a, b] = mesh.edges()[e as usize].map(|v| to_internal[v as usize]);
-                [a.min(b), a.max(b)]
-            })
-            .collect();
-        let weight: Vec<f64> = order.iter().map(|&e| mesh_weights[e as usize]).collect();
+    /// Internal numbers of the ends of an edge, ascending.
+    fn ends(&self, edge: [u32; 2]) -> [u32; 2] {
+        let [a, b] = edge.map(|v| self.to_internal[v as usize]);
+        [a.min(b), a.max(b)]
+    }
+}
+
+impl Layout {
+    /// `order`: the edges of the mesh in the internal order, whose ends and weights are given in that of the mesh.
+    fn new(numbering: Numbering, order: &[u32], (ends, weights): (&[[u32; 2]], &[f64])) -> Layout {
+        let Numbering { to_internal, to_caller, rest, component } = numbering;
+        let edges: Vec<[u32; 2]> = order.iter().map(|&e| ends[e as usize]).collect();
+        let weight: Vec<f64> = order.iter().map(|&e| weights[e as usize]).collect();
         let edge_rest: Vec<DVec3> = edges.iter().map(|&[i, j]| rest[i as usize] - rest[j as usize]).collect();
         let (offsets, spokes) = spokes(rest.len(), &edges);
         let (blocks, block_of_edge) = blocks(&edges, &component);
@@ -144,14 +173,6 @@ impl Layout {
     pub(crate) fn spokes(&self, v: usize) -> &[Spoke] {
         &self.spokes[self.offsets[v] as usize..self.offsets[v + 1] as usize]
     }
-}
-
-/// Vertices by component, then along the curve, then by number.
-fn vertex_order(mesh: &Mesh, curve: &Curve) -> Vec<u32> {
-    let mut keyed: Vec<(u32, u64, u32)> =
-        (0..mesh.n_vertices()).map(|v| (mesh.components()[v], curve.position(mesh.positions()[v]), v as u32)).collect();
-    keyed.sort_unstable();
-    keyed.into_iter().map(|key| key.2).collect()
 }
 
 fn spokes(n_vertices: usize, edges: &[[u32; 2]]) -> (Vec<u32>, Vec<Spoke>) {

@@ -1,7 +1,9 @@
 //! Edges, components and defects of a triangle list, by sorting half-edges: no hash, so the same every time.
 
 use glam::DVec3;
+use rayon::prelude::*;
 
+use crate::Mesh;
 use crate::weights::unit_sides;
 
 /// Twice the area over the longest side squared below which a face counts as without area. Rounding of coordinates
@@ -34,6 +36,23 @@ impl HalfEdges {
     fn groups(&self) -> impl Iterator<Item = &[(u32, u32, bool)]> {
         self.sides.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1))
     }
+}
+
+/// In place of an edge: the two corners at this side of a face are one vertex.
+pub(crate) const NO_EDGE: u32 = u32::MAX;
+
+/// The edges at the three sides of every face: from its first corner to the second, to the third, and back.
+pub(crate) fn sides_of_faces(mesh: &Mesh) -> Vec<[u32; 3]> {
+    // Edges are sorted by their lower end: those of vertex v begin at `first[v]`.
+    let mut first = vec![0; mesh.n_vertices() + 1];
+    mesh.edges().iter().for_each(|&[lower, _]| first[lower as usize + 1] += 1);
+    (0..mesh.n_vertices()).for_each(|v| first[v + 1] += first[v]);
+    let edge = |a: u32, b: u32| {
+        let (lower, upper) = (a.min(b) as usize, a.max(b));
+        let place = (first[lower]..first[lower + 1]).find(|&e: &usize| mesh.edges()[e][1] == upper);
+        place.map_or(NO_EDGE, |e| e as u32)
+    };
+    mesh.triangles().par_iter().map(|&[a, b, c]| [edge(a, b), edge(b, c), edge(c, a)]).collect()
 }
 
 /// Component of each vertex, numbered by first vertex, and their number.

@@ -13,6 +13,7 @@
 use glam::DVec3;
 
 use crate::Mesh;
+use crate::topology::NO_EDGE;
 
 /// How edges are weighted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -36,12 +37,13 @@ const LARGEST_COTANGENT: f64 = 57.289_961_630_759_42;
 const SMALLEST_OF_MEDIAN: f64 = 1e-3;
 
 /// One weight per edge of the mesh, in the order of [`Mesh::edges`]; always finite, and positive unless raw.
-pub(crate) fn edge_weights(mesh: &Mesh, weights: Weights) -> Vec<f64> {
+/// `sides`: edges at the sides of every face, see [`sides_of_faces`](crate::topology::sides_of_faces).
+pub(crate) fn edge_weights(mesh: &Mesh, sides: &[[u32; 3]], weights: Weights) -> Vec<f64> {
     match weights {
         Weights::Uniform => vec![1.0; mesh.n_edges()],
-        Weights::Cotangent => summed(mesh, raw_cotangents),
+        Weights::Cotangent => summed(mesh, sides, raw_cotangents),
         Weights::Clamped => {
-            let mut w = summed(mesh, |corners| {
+            let mut w = summed(mesh, sides, |corners| {
                 tame_cotangents(corners).map(|c| c.clamp(-LARGEST_COTANGENT, LARGEST_COTANGENT))
             });
             clamp(&mut w);
@@ -51,20 +53,16 @@ pub(crate) fn edge_weights(mesh: &Mesh, weights: Weights) -> Vec<f64> {
 }
 
 /// Sums half of each face's cotangents (given its sides) over its edges; values that are not finite contribute nothing.
-fn summed(mesh: &Mesh, cotangents: impl Fn([DVec3; 3]) -> [f64; 3]) -> Vec<f64> {
+fn summed(mesh: &Mesh, sides: &[[u32; 3]], cotangents: impl Fn([DVec3; 3]) -> [f64; 3]) -> Vec<f64> {
     let mut w = vec![0.0; mesh.n_edges()];
-    for &face in mesh.triangles() {
-        let [a, b, c] = face;
-        if a == b || b == c || c == a {
+    for (&face, edges) in mesh.triangles().iter().zip(sides) {
+        if edges.contains(&NO_EDGE) {
             continue;
         }
         let cot = cotangents(unit_sides(face.map(|v| mesh.positions()[v as usize])));
         for (corner, cot) in cot.into_iter().enumerate() {
-            let (i, j) = (face[(corner + 1) % 3], face[(corner + 2) % 3]);
-            if cot.is_finite()
-                && let Ok(edge) = mesh.edges().binary_search(&[i.min(j), i.max(j)])
-            {
-                w[edge] += 0.5 * cot;
+            if cot.is_finite() {
+                w[edges[(corner + 1) % 3] as usize] += 0.5 * cot;
             }
         }
     }
@@ -122,10 +120,11 @@ fn clamp(w: &mut [f64]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::topology::sides_of_faces;
 
     fn weights_of(points: &[[f64; 3]], faces: &[[u32; 3]], weights: Weights) -> Vec<f64> {
         let mesh = Mesh::new(points.iter().map(|&p| p.into()).collect(), faces.to_vec()).expect("valid");
-        edge_weights(&mesh, weights)
+        edge_weights(&mesh, &sides_of_faces(&mesh), weights)
     }
 
     #[test]

@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use rayon::prelude::*;
+
 use super::factor::{TaskFactor, factor};
 use super::pattern::Pattern;
 use super::plan::Plan;
@@ -37,7 +39,8 @@ impl System {
     /// Reserves memory; nothing is factored yet.
     pub(crate) fn new(pattern: Arc<Pattern>) -> Result<System, FactorError> {
         let plan = plan_of(&pattern)?;
-        let factors = plan.tasks.iter().map(TaskFactor::reserve).collect::<Option<Vec<_>>>();
+        // In parallel, because the first touch of so much memory takes as long as factoring.
+        let factors = plan.tasks.par_iter().map(TaskFactor::reserve).collect::<Option<Vec<_>>>();
         let factors = factors.ok_or(FactorError::TooLarge)?;
         let due = vec![true; plan.tasks.len()];
         let rows = vec![Quad::ZERO; plan.n_rows()];

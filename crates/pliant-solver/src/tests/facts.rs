@@ -3,6 +3,7 @@
 use glam::{DQuat, DVec3};
 
 use crate::test_support::{Random, arc, box_bar, bumpy_sheet, farthest, mixed_rigidity, plain_energy, solver};
+use crate::topology::sides_of_faces;
 use crate::weights::edge_weights;
 use crate::{Mesh, Rigidity, Solver, Start, VertexId, Weights};
 
@@ -98,7 +99,7 @@ fn the_energy_never_rises_after_the_best_start_was_chosen() {
 fn the_energy_never_rises_and_is_that_of_a_direct_sum() {
     for weights in [Weights::Clamped, Weights::Uniform] {
         let (mesh, mut solver, targets) = pulled_sheet(weights);
-        let w = edge_weights(&mesh, weights);
+        let w = edge_weights(&mesh, &sides_of_faces(&mesh), weights);
         let mut before = f64::INFINITY;
         for _ in 0..30 {
             let report = solver.step();
@@ -127,7 +128,7 @@ fn small_energies_of_large_neighborhoods_keep_eight_digits() {
     let mut triangles = sheet.triangles().to_vec();
     triangles.extend(sheet.triangles().iter().map(|t| t.map(|v| v + n as u32)));
     let mesh = || Mesh::new(positions.clone(), triangles.clone()).expect("two sheets are valid");
-    let w = edge_weights(&mesh(), Weights::Clamped);
+    let w = edge_weights(&mesh(), &sides_of_faces(&mesh()), Weights::Clamped);
     let turns = [DQuat::from_rotation_x(2.0), DQuat::from_rotation_y(-1.0)];
     let held: Vec<VertexId> = [0, 60, 61, 150, n, n + 61, n + 120].map(|v| VertexId(v as u32)).to_vec();
     for r in [6, 10] {
@@ -185,7 +186,7 @@ fn the_number_of_threads_changes_no_bit_and_shared_sums_are_right() {
 #[test]
 fn after_a_global_step_the_gradient_of_the_energy_vanishes() {
     let (mesh, mut solver, _) = pulled_sheet(Weights::Clamped);
-    let w = edge_weights(&mesh, Weights::Clamped);
+    let w = edge_weights(&mesh, &sides_of_faces(&mesh), Weights::Clamped);
     solver.step();
     solver.global_step();
     let (r, rotations) = (solver.rigidity().as_slice().to_vec(), solver.rotations());

@@ -9,8 +9,9 @@
 use super::flow::Band;
 use super::piece::Piece;
 
-/// Vertices in the band per square root of the vertices of the piece.
-const BAND: f32 = 12.0;
+/// Vertices in the band per square root of the vertices of the piece. Measured at 100,000 vertices: 12 takes a quarter
+/// longer and fills 2 % less.
+const BAND: f32 = 8.0;
 /// The band has at most this share of the vertices.
 const WIDEST_BAND: f32 = 0.5;
 /// Keys in a sample that estimates quantiles and axes.
