@@ -89,6 +89,9 @@ mod iteration;
 mod lanes;
 mod lbfgs;
 mod linear;
+#[cfg(feature = "measure")]
+#[doc(hidden)]
+pub mod measure;
 mod mesh;
 mod moments;
 mod neighborhoods;

@@ -9,6 +9,10 @@ pub(crate) enum Failure {
     File { path: PathBuf, source: std::io::Error },
     #[error("{program} could not be started: {source}")]
     Start { program: String, source: std::io::Error },
+    #[error("{program} stopped with an error")]
+    Stopped { program: String },
+    #[error("the solver refused what is to be measured: {0}")]
+    Solve(#[from] pliant_solver::SolveError),
     #[error("sample {name} could not be written: {source}")]
     Sample { name: &'static str, source: pliant_meshfile::SaveError },
     #[error("{n} of the files in assets/ are not what `cargo xtask assets` makes (first: {first}); run it and commit what changed", n = .0.len(), first = .0[0])]

@@ -1,6 +1,8 @@
-//! Developer commands: `cargo xtask test` runs every test, `cargo xtask assets` makes the samples anew.
+//! Developer commands: `cargo xtask test` runs every test, `cargo xtask assets` makes the samples anew, `cargo xtask bench`
+//! measures.
 
 mod assets;
+mod bench;
 mod failure;
 mod shapes;
 mod testing;
@@ -31,12 +33,15 @@ enum Task {
         #[arg(long)]
         check: bool,
     },
+    /// Measure the solver and write docs/performance.md
+    Bench(bench::Options),
 }
 
 fn main() -> ExitCode {
     let done = match Arguments::parse().task {
         Task::Test { filter } => testing::run(&filter),
         Task::Assets { check } => assets::run(check),
+        Task::Bench(options) => bench::run(&options),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -47,6 +47,12 @@ impl System {
         Ok(System { values: vec![0.0; pattern.n_values()], factors, due, rows, pattern })
     }
 
+    /// Number of values of L that are stored.
+    #[cfg(feature = "measure")]
+    pub(crate) fn n_values(&self) -> usize {
+        self.factors.iter().map(|factor| factor.values.len()).sum()
+    }
+
     /// Factors new values: those tasks whose entries changed since the last time, and the ones above them. After an error
     /// the factor is unusable until the next success.
     pub(crate) fn factor(&mut self, values: &[f64]) -> Result<(), FactorError> {

@@ -25,6 +25,13 @@ pub(crate) const THIN_BAR: Sample = Sample {
     rigidity: None,
 };
 
+/// A bar like [`BAR`] of any fineness, `cells` cells across and about 30 `cells`² vertices, and its bend.
+pub(crate) fn bent(cells: u32, degrees: f64) -> (Shape, Handles) {
+    let shape = surface([cells * 15 / 2, cells, cells], 7.5);
+    let handles = arc(&shape, 7.5, degrees);
+    (shape, handles)
+}
+
 /// The surface of a box of `cells` cells along x, y, z.
 fn surface(cells: [u32; 3], length: f64) -> Shape {
     let [nx, ny, nz] = cells;

@@ -1,5 +1,6 @@
 //! Which vertices are held and where they go, as a file for `pliant deform --handles`.
 
+use super::Shape;
 use glam::{DMat4, DVec3};
 use serde_json::{Value, json};
 
@@ -15,6 +16,17 @@ pub(crate) struct Handles {
 }
 
 impl Handles {
+    /// Every held vertex with the place it goes to.
+    pub(crate) fn targets(&self, shape: &Shape) -> Vec<(u32, DVec3)> {
+        let at = |v: u32| shape.positions[v as usize];
+        let fixed = self.fixed.iter().map(|&v| (v, at(v)));
+        let grouped = self
+            .groups
+            .iter()
+            .flat_map(|(vertices, matrix)| vertices.iter().map(|&v| (v, matrix.transform_point3(at(v)))));
+        fixed.chain(self.moved.iter().copied()).chain(grouped).collect()
+    }
+
     /// The file: a line a key, and a line a moved vertex or group, so that differences read well.
     pub(crate) fn to_json(&self) -> String {
         let mut sections = vec![format!("  \"fixed\": {}", json!(self.fixed))];

@@ -1,6 +1,7 @@
 //! A triangle mesh under construction, and what can be asked of it.
 
 use glam::DVec3;
+use rayon::prelude::*;
 #[cfg(test)]
 use std::collections::BTreeMap;
 
@@ -27,7 +28,7 @@ impl Shape {
     pub(crate) fn directed_edges(&self) -> Edges {
         let of_triangle = |(i, t): (usize, &[u32; 3])| [0, 1, 2].map(|c| ((t[c], t[(c + 1) % 3]), i as u32));
         let mut edges: Vec<_> = self.triangles.iter().enumerate().flat_map(of_triangle).collect();
-        edges.sort_unstable();
+        edges.par_sort_unstable();
         Edges(edges)
     }
 

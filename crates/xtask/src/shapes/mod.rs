@@ -4,6 +4,7 @@
 //! crate, in one fixed order, so that every machine makes the same bytes.
 
 pub(crate) mod bar;
+pub(crate) mod body;
 pub(crate) mod cactus;
 pub(crate) mod creature;
 pub(crate) mod field;

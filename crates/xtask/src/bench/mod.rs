@@ -1,0 +1,179 @@
+//! `cargo xtask bench`: measures the solver and writes `docs/performance.md`.
+//!
+//! | file | what |
+//! |---|---|
+//! | `machine` | the processor's name, and how fast it reads memory |
+//! | `scene` | meshes with handles |
+//! | `stages` | every stage of the solver by size and r |
+//! | `kernels` | the parts of an iteration beside the memory's floor |
+//! | `outside` | an iteration as anyone can time it, by the command line |
+//! | `descent` | how fast the energy falls, from rest and in a drag |
+//! | `peers` | libigl and Open3D beside it, by `tools/peers.py` |
+//!
+//! Times are medians of several repetitions on whatever else the machine does meanwhile: compare ratios.
+
+mod clock;
+mod descent;
+mod kernels;
+mod machine;
+mod outside;
+mod peers;
+mod scene;
+mod stages;
+mod table;
+
+use crate::assets;
+use crate::failure::Failure;
+use machine::Machine;
+use pliant_solver::Rigidity;
+use scene::Scene;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// What to measure.
+#[derive(clap::Args, Clone, Debug, Default)]
+pub(crate) struct Options {
+    /// Only the smallest mesh: a few seconds, to see that everything runs
+    #[arg(long)]
+    quick: bool,
+    /// Leave out meshes of more vertices than this
+    #[arg(long, value_name = "VERTICES")]
+    largest: Option<usize>,
+    /// Also run libigl and Open3D beside the command line (needs Python with `pip install libigl open3d numpy`)
+    #[arg(long)]
+    peers: bool,
+    /// Where to write, instead of docs/performance.md
+    #[arg(long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// A line to put under the machine's name, for instance a date
+    #[arg(long, value_name = "TEXT")]
+    note: Option<String>,
+}
+
+/// Sizes of the body: 1, 12, 50, 100, 250 and 1000 thousand vertices.
+const CUTS: [u32; 6] = [10, 35, 71, 100, 158, 316];
+/// Sizes of the bar: 12 and 100 thousand vertices.
+const CELLS: [u32; 2] = [20, 58];
+const SIZES: [u16; 6] = [1, 2, 3, 6, 10, 20];
+/// Iterations by which the lowest energy is found.
+const MOST_ITERATIONS: usize = 2000;
+
+/// Builds the command line and itself with optimization, and measures.
+pub(crate) fn run(options: &Options) -> Result<(), Failure> {
+    if cfg!(debug_assertions) {
+        return run_optimized();
+    }
+    // Built by `run_optimized` into the same folder as this program.
+    let here = std::env::current_exe().map_err(|source| Failure::File { path: "xtask".into(), source })?;
+    let program = here.with_file_name(format!("pliant{}", std::env::consts::EXE_SUFFIX));
+    let text = measure(options, program.is_file().then_some(&*program))?;
+    let output =
+        options.output.clone().unwrap_or_else(|| assets::folder().with_file_name("docs").join("performance.md"));
+    fs::write(&output, text).map_err(|source| Failure::File { path: output.clone(), source })?;
+    eprintln!("written to {}", output.display());
+    Ok(())
+}
+
+/// The same command in a build whose times mean something.
+fn run_optimized() -> Result<(), Failure> {
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let own = std::env::args_os().skip(1).collect::<Vec<_>>();
+    let build: [&[&str]; 2] =
+        [&["build", "--release", "--package", "pliant"], &["run", "--release", "--package", "xtask", "--"]];
+    for (arguments, more) in build.into_iter().zip([&[][..], &own]) {
+        let status = Command::new(&cargo).args(arguments).args(more).status();
+        let status = status.map_err(|source| Failure::Start { program: "cargo".into(), source })?;
+        if !status.success() {
+            return Err(Failure::Stopped { program: format!("cargo {}", arguments.join(" ")) });
+        }
+    }
+    Ok(())
+}
+
+/// The text of the page; without `program` what needs the command line is left out.
+fn measure(options: &Options, program: Option<&Path>) -> Result<String, Failure> {
+    let folder = tempfile::tempdir().map_err(|source| Failure::File { path: std::env::temp_dir(), source })?;
+    let machine = Machine::measure();
+    let mut page = String::from(
+        "# Performance\n\n\
+         Made by `cargo xtask bench --peers`. Times are medians of several repetitions, beside whatever else the machine \
+         did: ratios say more than times.\n\n",
+    );
+    let mut section = |title: &str, text: &str| page.push_str(&format!("## {title}\n\n{text}"));
+    let mut about = machine.description();
+    for line in [&options.note, &Some(MESHES.to_owned())].into_iter().flatten() {
+        about = format!("{about}\n\n{line}");
+    }
+    section("What was measured", &format!("{about}\n\n"));
+
+    let scenes = scenes(options);
+    section("Stages", &stages::tables(&scenes)?);
+    section("Kernels", &kernels::table(&scenes, machine.bandwidth[1])?);
+    let bodies = |cuts: &[u32]| -> Vec<&Scene> {
+        let is_wanted = |scene: &Scene| options.quick || cuts.iter().any(|&c| scene.is_body_of(c));
+        scenes.iter().map(|(scene, _)| scene).filter(|scene| is_wanted(scene)).collect()
+    };
+    if let Some(program) = program {
+        section("An iteration from outside", &outside::table(program, &bodies(&CUTS[1..4]), folder.path())?);
+    }
+    let most = if options.quick { 50 } else { MOST_ITERATIONS };
+    let both = bodies(&[CUTS[1], CUTS[3]]);
+    let jumps: Vec<_> = both.iter().flat_map(|&scene| [(scene, 1), (scene, 10)]).collect();
+    section("From rest", &descent::from_rest(&jumps, most)?);
+    section("A drag", &dragged(options.quick)?);
+    if let Some(program) = program.filter(|_| options.peers) {
+        section("Beside others", &peers::tables(program, &both, folder.path(), most)?);
+    }
+    page.truncate(page.trim_end().len());
+    page.push('\n');
+    Ok(page)
+}
+
+const MESHES: &str = "*Body*: a bumpy ellipsoid, irregular and Delaunay, its ends held (an eighth of its vertices) and \
+                      bent by 70°. *Bar*: the samples' bar, finer, bent by 70°.";
+
+/// Meshes with the r to be timed on them.
+fn scenes(options: &Options) -> Vec<(Scene, Vec<u16>)> {
+    if options.quick {
+        return vec![(Scene::body(CUTS[0]), vec![1, 10])];
+    }
+    let largest = options.largest.unwrap_or(usize::MAX);
+    let is_wanted = |n: u32| n as usize <= largest;
+    let bodies = CUTS.into_iter().filter(|&cuts| is_wanted(10 * cuts * cuts));
+    let bars = CELLS.into_iter().filter(|&cells| is_wanted(30 * cells * cells));
+    let body = |cuts| {
+        eprintln!("making a body of {} vertices", 10 * cuts * cuts + 2);
+        (Scene::body(cuts), SIZES.to_vec())
+    };
+    bodies.map(body).chain(bars.map(|cells| (Scene::bar(cells), vec![1, 10]))).collect()
+}
+
+/// The creature with its painted r; small and with a made-up r if quick, for its shape takes seconds to make.
+fn dragged(quick: bool) -> Result<String, Failure> {
+    let (scene, r) = if quick {
+        let scene = Scene::body(CUTS[0]);
+        let r = (0..scene.n_vertices()).map(|v| 1 + (v % 6) as u16).collect();
+        (scene, r)
+    } else {
+        Scene::creature()
+    };
+    let rigidity = Rigidity::new(r).expect("1 to 6");
+    Ok(descent::drag(&scene, &rigidity)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_quick_run_writes_every_table() {
+        let page = measure(&Options { quick: true, ..Options::default() }, None).expect("measured");
+        for title in ["What was measured", "Stages", "Kernels", "From rest", "A drag"] {
+            let section = page.split("## ").find(|section| section.starts_with(title));
+            let section = section.unwrap_or_else(|| panic!("no section {title} in\n{page}"));
+            assert!(title == "What was measured" || section.contains("|\n| "), "no table in\n{section}");
+        }
+        assert!(!page.contains("NaN"), "{page}");
+    }
+}
