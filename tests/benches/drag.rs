@@ -1,16 +1,20 @@
-//! What a person feels during a drag on the start sample at mixed r: surfaces a second from the solver, and the window's
-//! own work a frame. Run by `cargo bench -p pliant-tests --bench drag`; needs a graphics adapter for the second part.
+//! What a person feels: during a drag on the start sample at mixed r, surfaces a second from the solver and the window's
+//! own work a frame; on 100,000 vertices, the wait for a surface after a dab of the brush and after a new handle. Run by
+//! `cargo bench -p pliant-tests --bench drag`; needs a graphics adapter for the window. `-- drag`, `-- window` or
+//! `-- waits` runs one part.
 
 #![allow(clippy::print_stdout, reason = "a benchmark prints its figures")]
 
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use glam::{DAffine3, DVec3};
-use pliant::document::{Command, GroupId, GroupKind};
-use pliant::editor::{EditorApp, Job, Sample, Session};
+use pliant::document::{Command, GroupId, GroupKind, Model};
+use pliant::editor::{EditorApp, Job, Opened, Sample, Session};
 use pliant::solving::SolveState;
+use pliant_meshfile::MeshFile;
 use pliant_solver::VertexId;
 
 /// A drag of this many frames at this rate.
@@ -18,8 +22,13 @@ const FRAMES: u32 = 180;
 const FRAME: Duration = Duration::from_nanos(16_666_667);
 
 fn main() {
-    session_drag();
-    window_drag();
+    let chosen: Vec<String> = std::env::args().skip(1).filter(|argument| !argument.starts_with('-')).collect();
+    let parts: [(&str, fn()); 3] = [("drag", session_drag), ("waits", waits), ("window", window_drag)];
+    for (name, part) in parts {
+        if chosen.is_empty() || chosen.iter().any(|one| one == name) {
+            part();
+        }
+    }
 }
 
 /// The session without drawing: what two cores can give to the solver.
@@ -42,7 +51,7 @@ fn session_drag() {
         work.push(begun.elapsed());
         while begun.elapsed() < FRAME {
             std::thread::sleep(Duration::from_millis(1));
-            let frame = session.open().map(|open| std::sync::Arc::as_ptr(open.surface.frame()));
+            let frame = session.open().map(|open| Arc::as_ptr(open.surface.frame()));
             if frame != last {
                 surfaces += 1;
                 last = frame;
@@ -117,15 +126,83 @@ fn prepare(session: &mut Session, mut wait: impl FnMut(&mut Session)) -> GroupId
     session.apply(Command::Hold { kind: GroupKind::Handle, vertices });
     let handle = session.document().and_then(|document| document.scene().groups.last()).expect("just placed").id;
     let revision = session.document().map_or(0, |document| document.revision());
-    while session
-        .status
-        .report
-        .as_ref()
-        .is_none_or(|report| report.revision != revision || report.state == SolveState::Preparing)
-    {
+    while !has_answered(session, revision) {
         wait(session);
     }
     handle
+}
+
+/// Whether the solver has made a surface for this revision of the document.
+fn has_answered(session: &Session, revision: u64) -> bool {
+    session.status.report.as_ref().is_some_and(|report| {
+        report.revision == revision && matches!(report.state, SolveState::Iterating | SolveState::Settled)
+    })
+}
+
+/// From a wish to the surface that knows of it, while the surface before is still on its way.
+fn waits() {
+    let mut session = Session::new(|| {}).expect("a solver thread");
+    let model = Model::from_file(bumpy_sheet()).expect("a good mesh");
+    session.show(Opened::new(Arc::new(model)), None);
+    let rim = (0..=CELLS).map(VertexId).collect();
+    session.apply(Command::FillAll(2));
+    session.apply(Command::Hold { kind: GroupKind::Anchor, vertices: rim });
+    let first = answered_in(&mut session, Command::Hold { kind: GroupKind::Handle, vertices: patch(150, 300, 2) });
+    let group = session.document().and_then(|document| document.scene().groups.last()).expect("just placed").id;
+    let motion = DAffine3::from_translation(DVec3::new(0.0, 0.1, 0.2));
+    answered_in(&mut session, Command::Move { group, motion });
+    let dabs = (0..9).map(|k| {
+        let values = patch(30 + 30 * k, 40 + 25 * k, 12).into_iter().map(|v| (v, 6)).collect();
+        answered_in(&mut session, Command::Paint { values })
+    });
+    let mut dabs: Vec<Duration> = dabs.collect();
+    let handles = (0..9).map(|k| {
+        let vertices = patch(285 - 30 * k, 40 + 20 * k, 2);
+        answered_in(&mut session, Command::Hold { kind: GroupKind::Handle, vertices })
+    });
+    let mut handles: Vec<Duration> = handles.collect();
+    let report = session.status.report.as_ref().expect("it has answered");
+    println!("waits for a surface: {} vertices, r 2", (CELLS + 1) * (CELLS + 1));
+    println!("  first build              {:8.1} ms", first.as_secs_f64() * 1e3);
+    print_times("  dab of 469 to r 6     ", &mut dabs);
+    print_times("  handle of 19          ", &mut handles);
+    println!("  solver iteration, median {:8.2} ms", report.iteration_ms);
+}
+
+fn answered_in(session: &mut Session, command: Command) -> Duration {
+    let begun = Instant::now();
+    session.apply(command);
+    let revision = session.document().map_or(0, |document| document.revision());
+    while !has_answered(session, revision) {
+        std::thread::sleep(Duration::from_micros(200));
+        session.poll();
+    }
+    begun.elapsed()
+}
+
+/// Cells along each side: 100,489 vertices.
+const CELLS: u32 = 316;
+
+/// A sheet with small hills, two triangles a cell.
+fn bumpy_sheet() -> MeshFile {
+    let at = |i: u32, j: u32| {
+        let (x, y) = (f64::from(i) / f64::from(CELLS), f64::from(j) / f64::from(CELLS));
+        DVec3::new(x, y, 0.02 * (31.0 * x).sin() * (23.0 * y).cos())
+    };
+    let positions = (0..=CELLS).flat_map(|j| (0..=CELLS).map(move |i| at(i, j))).collect();
+    let cells = (0..CELLS).flat_map(|j| (0..CELLS).map(move |i| (i, j)));
+    let triangles = cells.flat_map(|(i, j)| {
+        let [a, b, c, d] = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)].map(|(i, j)| j * (CELLS + 1) + i);
+        [[a, b, c], [a, c, d]]
+    });
+    MeshFile::from_triangles("hills", positions, triangles.collect())
+}
+
+/// The vertices within so many rings of a vertex of the sheet: a hexagon.
+fn patch(i: i64, j: i64, rings: i64) -> Vec<VertexId> {
+    let around = (-rings..=rings).flat_map(|y| (-rings..=rings).map(move |x| (x, y)));
+    let inside = around.filter(|(x, y)| (x - y).abs() <= rings).map(|(x, y)| (i + x, j + y));
+    inside.map(|(i, j)| VertexId((j * i64::from(CELLS + 1) + i) as u32)).collect()
 }
 
 fn motion(frame: u32) -> DAffine3 {

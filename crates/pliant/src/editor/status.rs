@@ -28,12 +28,12 @@ impl Status {
         };
         match &report.state {
             SolveState::Failed(why) => self.last_failure = Some(why.clone()),
-            SolveState::Preparing => {}
+            SolveState::Preparing { .. } => {}
             SolveState::Resting | SolveState::Iterating | SolveState::Settled => self.last_failure = None,
         }
         // Numbers and colors stay while the solver prepares.
         self.report = Some(match self.report.take() {
-            Some(last) if report.state == SolveState::Preparing => {
+            Some(last) if matches!(report.state, SolveState::Preparing { .. }) => {
                 SolveReport { state: report.state, revision: report.revision, epoch: report.epoch, ..last }
             }
             _ => report,

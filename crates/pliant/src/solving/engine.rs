@@ -1,22 +1,26 @@
 //! The solver as the worker holds it: compares each wish with what it has and does the least that is needed.
 
 use std::collections::VecDeque;
+use std::ops::ControlFlow;
 use std::sync::Arc;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use glam::DVec3;
 use pliant_geometry::VertexNormals;
-use pliant_solver::{Analysis, LooseComponents, Neighborhoods, SolveError, Solver, Start, StepReport, VertexId};
+use pliant_solver::{
+    Analysis, LooseComponents, Minimizer, Neighborhoods, SolveError, Solver, Start, StepReport, VertexId,
+};
 
+use super::stillness::Stillness;
 use super::{SolveReport, SolveRequest, SolveState};
-use crate::document::{Group, Pose, held_by};
+use crate::document::{Pose, held_by};
 use crate::viewport::SurfaceFrame;
 
-/// Relative decrease of the energy below which the surface counts as at rest. The paper's γ is 1e-3 for a result; a
-/// thousandth of that is below what can be seen on a screen (by eye).
-const SETTLED_BELOW: f64 = 1e-6;
-/// That many quiet iterations in a row settle it: a single one may be a pause on a slope.
-const QUIET_ITERATIONS: u32 = 5;
+/// Several times fewer iterations than the plain one, and hardly dearer.
+const MINIMIZER: Minimizer = Minimizer::Lbfgs;
+/// Rings to search, summed over the vertices, from which on the user is told and may change his mind: some tenths of a
+/// second with the factorization that follows (measured). Below, nobody would read it.
+const LONG_SEARCH: u64 = 100_000;
 /// Targets that jump farther than this fraction of the bounding box's diagonal are a new start, not a drag (by eye:
 /// a fast mouse moves a tenth of the window in a frame).
 const JUMP_FRACTION: f64 = 0.25;
@@ -24,6 +28,9 @@ const JUMP_FRACTION: f64 = 0.25;
 const PLOTTED_ENERGIES: usize = 300;
 /// Iteration times of which the median is shown.
 const TIMED_ITERATIONS: usize = 32;
+
+/// Is told how far a long search is, from 0 to 1, and may stop it. Called from the threads that search.
+pub type Watch<'a> = dyn FnMut(f64) -> ControlFlow<()> + Send + 'a;
 
 /// A prepared solver and the wish it was prepared for.
 pub struct Engine {
@@ -38,17 +45,17 @@ pub struct Engine {
     is_bent: bool,
     /// Whether the pose has changed since it was last reported.
     is_pose_new: bool,
-    quiet: u32,
+    stillness: Stillness,
     last: StepReport,
     energies: VecDeque<f64>,
     times_ms: VecDeque<f64>,
 }
 
 impl Engine {
-    /// Analyzes the mesh of the wish and prepares for it. Seconds on a large mesh.
-    pub fn new(wish: SolveRequest) -> Engine {
+    /// Analyzes the mesh of a wish; seconds on a large mesh. [`Engine::adopt`] then prepares for the wish.
+    pub fn new(wish: &SolveRequest) -> Engine {
         let model = wish.model.clone();
-        let mut engine = Engine {
+        Engine {
             analysis: Arc::new(Analysis::new(model.mesh.clone(), wish.weights)),
             normals: VertexNormals::new(model.mesh.n_vertices(), &model.triangles),
             solver: None,
@@ -57,14 +64,12 @@ impl Engine {
             state: SolveState::Resting,
             is_bent: false,
             is_pose_new: false,
-            quiet: 0,
+            stillness: Stillness::default(),
             last: StepReport { energy: 0.0, iteration: 0, relative_decrease: 0.0 },
             energies: VecDeque::new(),
             times_ms: VecDeque::new(),
             wish: wish.clone(),
-        };
-        engine.rebuild(wish);
-        engine
+        }
     }
 
     /// Whether another wish concerns the same mesh and weights, so that the analysis serves.
@@ -72,89 +77,147 @@ impl Engine {
         Arc::ptr_eq(&self.wish.model, &wish.model) && self.wish.weights == wish.weights
     }
 
-    /// Whether `adopt` would have to build neighborhoods or factor: worth telling the user before.
-    pub fn must_refactor(&self, wish: &SolveRequest) -> bool {
-        self.solver.is_none() || self.wish.rigidity != wish.rigidity || !same_held(&self.wish.groups, &wish.groups)
+    /// Whether `adopt` would take so long that the user is better told before.
+    pub fn takes_long(&self, wish: &SolveRequest) -> bool {
+        if wish.groups.is_empty() {
+            return false;
+        }
+        let sizes = wish.rigidity.as_slice();
+        let rings: u64 = if self.must_rebuild(wish) {
+            sizes.iter().map(|&r| u64::from(r)).sum()
+        } else if self.wish.rigidity == wish.rigidity {
+            0
+        } else {
+            let changed = sizes.iter().zip(self.wish.rigidity.as_slice()).filter(|(new, old)| new != old);
+            changed.map(|(&r, _)| u64::from(r)).sum()
+        };
+        rings >= LONG_SEARCH
     }
 
-    /// Turns to a new wish for the same mesh and weights with the least work.
-    pub fn adopt(&mut self, wish: SolveRequest) {
+    fn must_rebuild(&self, wish: &SolveRequest) -> bool {
+        self.solver.is_none() || self.wish.loose != wish.loose
+    }
+
+    /// Turns to a wish for the same mesh and weights with the least work. `watch` follows a long search for
+    /// neighborhoods.
+    ///
+    /// # Errors
+    /// Breaks if `watch` stopped the search. The engine is as it was, and should be given a newer wish.
+    pub fn adopt(&mut self, wish: SolveRequest, watch: &mut Watch<'_>) -> ControlFlow<()> {
         debug_assert!(self.serves(&wish), "another mesh or other weights need a new engine");
-        let jumped = wish.epoch != self.wish.epoch;
-        let relaxed = self.wish.loose != wish.loose;
-        let Some(solver) = self.solver.as_mut().filter(|_| !relaxed && !wish.groups.is_empty()) else {
-            return self.rebuild(wish);
-        };
-        let (held, targets) = held_by(&wish.groups);
-        let outcome = (|| -> Result<bool, SolveError> {
-            let mut changed = jumped;
-            if jumped {
-                solver.set_pose(&wish.pose.positions)?;
-                self.is_bent = !is_rest(&wish);
-                self.is_pose_new = true;
-            }
-            if wish.rigidity != self.wish.rigidity {
-                solver.set_rigidity(&wish.rigidity)?;
-                changed = true;
-            }
-            if held != self.held {
-                solver.set_held(&held)?;
-                self.held = held;
-                solver.set_targets(&targets)?;
-                changed = true;
-            } else if targets != self.targets {
-                let diagonal = f64::from(wish.model.diagonal());
-                let leap = farthest(&self.targets, &targets) > JUMP_FRACTION * diagonal;
-                solver.set_targets(&targets)?;
-                if leap && !jumped {
-                    solver.start(Start::Auto);
-                    self.is_bent = true;
+        if wish.groups.is_empty() {
+            self.rest(wish);
+        } else if self.must_rebuild(&wish) || self.takes_long(&wish) {
+            return self.rebuild(wish, watch);
+        } else {
+            self.update(wish);
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// Nothing is held any more.
+    fn rest(&mut self, wish: SolveRequest) {
+        self.solver = None;
+        self.energies.clear();
+        self.state = SolveState::Resting;
+        (self.held, self.targets, self.wish) = (Vec::new(), Vec::new(), wish);
+    }
+
+    /// Changes the solver where the wish differs.
+    fn update(&mut self, wish: SolveRequest) {
+        let Some(mut solver) = self.solver.take() else { return };
+        match self.change(&mut solver, &wish) {
+            Ok(is_changed) => {
+                self.solver = Some(solver);
+                if is_changed {
+                    self.go_on(&wish);
                 }
-                changed = true;
             }
-            Ok(changed)
-        })();
-        self.targets = targets;
-        match outcome {
-            Ok(true) => self.go_on(&wish),
-            Ok(false) => {}
             Err(error) => self.fail(&error),
         }
-        if jumped {
+        if wish.epoch != self.wish.epoch {
             self.energies.clear();
         }
         self.wish = wish;
     }
 
-    fn rebuild(&mut self, wish: SolveRequest) {
-        self.solver = None;
-        self.energies.clear();
-        self.state = SolveState::Resting;
-        let (held, targets) = held_by(&wish.groups);
-        if !held.is_empty() {
-            match self.build(&wish, &held, &targets) {
-                Ok(solver) => {
-                    self.solver = Some(solver);
-                    self.is_bent = !is_rest(&wish);
-                    self.go_on(&wish);
-                }
-                Err(error) => self.fail(&error),
-            }
+    /// Returns whether anything differed.
+    fn change(&mut self, solver: &mut Solver, wish: &SolveRequest) -> Result<bool, SolveError> {
+        let jumped = wish.epoch != self.wish.epoch;
+        let mut changed = jumped;
+        if jumped {
+            solver.set_pose(&wish.pose.positions)?;
+            self.is_bent = !is_rest(wish);
+            self.is_pose_new = true;
         }
-        (self.held, self.targets, self.wish) = (held, targets, wish);
+        if wish.rigidity != self.wish.rigidity {
+            solver.set_rigidity(&wish.rigidity)?;
+            changed = true;
+        }
+        let (held, targets) = held_by(&wish.groups);
+        if held != self.held {
+            solver.set_held(&held)?;
+            solver.set_targets(&targets)?;
+            self.held = held;
+            changed = true;
+        } else if targets != self.targets {
+            let leap = farthest(&self.targets, &targets) > JUMP_FRACTION * f64::from(wish.model.diagonal());
+            solver.set_targets(&targets)?;
+            if leap && !jumped {
+                solver.start(Start::Auto);
+                self.is_bent = true;
+            }
+            changed = true;
+        }
+        self.targets = targets;
+        Ok(changed)
     }
 
-    fn build(&self, wish: &SolveRequest, held: &[VertexId], targets: &[DVec3]) -> Result<Solver, SolveError> {
-        let neighborhoods = Neighborhoods::new(&self.analysis, &wish.rigidity)?;
+    /// A new solver. It goes on where the old one was, unless the document's pose jumped.
+    fn rebuild(&mut self, wish: SolveRequest, watch: &mut Watch<'_>) -> ControlFlow<()> {
+        let neighborhoods = Neighborhoods::with_progress(&self.analysis, &wish.rigidity, &mut |done| watch(done));
+        if neighborhoods.as_ref().is_err_and(|error| *error == SolveError::Canceled) {
+            return ControlFlow::Break(());
+        }
+        // The old factor goes before the new one comes.
+        let old = self.solver.take().map(|solver| solver.positions());
+        let pose = match old.filter(|_| wish.epoch == self.wish.epoch) {
+            Some(positions) => positions.into(),
+            None => {
+                self.is_bent = !is_rest(&wish);
+                wish.pose.positions.clone()
+            }
+        };
+        let (held, targets) = held_by(&wish.groups);
+        self.energies.clear();
+        match neighborhoods.and_then(|neighborhoods| self.build(neighborhoods, &wish, (&held, &targets), &pose)) {
+            Ok(solver) => {
+                self.solver = Some(solver);
+                self.go_on(&wish);
+            }
+            Err(error) => self.fail(&error),
+        }
+        (self.held, self.targets, self.wish) = (held, targets, wish);
+        ControlFlow::Continue(())
+    }
+
+    fn build(
+        &self,
+        neighborhoods: Neighborhoods,
+        wish: &SolveRequest,
+        (held, targets): (&[VertexId], &[DVec3]),
+        pose: &[DVec3],
+    ) -> Result<Solver, SolveError> {
         let mut solver = Solver::new(self.analysis.clone(), neighborhoods, &wish.rigidity, held, wish.loose)?;
-        solver.set_pose(&wish.pose.positions)?;
+        solver.set_minimizer(MINIMIZER);
+        solver.set_pose(pose)?;
         solver.set_targets(targets)?;
         Ok(solver)
     }
 
     /// After a change: iterates again, unless nothing is bent.
     fn go_on(&mut self, wish: &SolveRequest) {
-        self.quiet = 0;
+        self.stillness.changed();
         self.state = SolveState::Iterating;
         if !self.is_bent && holds_at_rest(wish) {
             self.state = SolveState::Settled;
@@ -172,21 +235,19 @@ impl Engine {
         self.state == SolveState::Iterating
     }
 
-    /// One local/global iteration.
-    pub fn step(&mut self) {
-        let Some(solver) = &mut self.solver else {
-            return;
-        };
+    /// One iteration; returns how long it took.
+    pub fn step(&mut self) -> Duration {
+        let Some(solver) = &mut self.solver else { return Duration::ZERO };
         let start = Instant::now();
         self.last = solver.step();
         (self.is_bent, self.is_pose_new) = (true, true);
-        remember(&mut self.times_ms, TIMED_ITERATIONS, start.elapsed().as_secs_f64() * 1e3);
+        let took = start.elapsed();
+        remember(&mut self.times_ms, TIMED_ITERATIONS, took.as_secs_f64() * 1e3);
         remember(&mut self.energies, PLOTTED_ENERGIES, self.last.energy);
-        let is_quiet = self.last.energy == 0.0 || self.last.relative_decrease < SETTLED_BELOW;
-        self.quiet = if is_quiet { self.quiet + 1 } else { 0 };
-        if self.quiet >= QUIET_ITERATIONS {
+        if self.stillness.is_reached(self.last.energy) {
             self.state = SolveState::Settled;
         }
+        took
     }
 
     /// Where things stand, with the surface ready for the picture unless it is as last reported.
@@ -211,6 +272,12 @@ impl Engine {
             vertex_energies: self.solver.as_ref().filter(|_| wants).map(|solver| scaled(&solver.vertex_energies())),
             remarks: self.remarks(),
         }
+    }
+
+    /// Where the surface is, if anything is held.
+    #[cfg(test)]
+    pub(super) fn positions(&self) -> Option<Vec<DVec3>> {
+        self.solver.as_ref().map(Solver::positions)
     }
 
     /// View-space positions and normals of a pose of this engine's mesh.
@@ -244,10 +311,6 @@ fn is_rest(wish: &SolveRequest) -> bool {
 fn holds_at_rest(wish: &SolveRequest) -> bool {
     let rest = wish.model.mesh.positions();
     wish.groups.iter().all(|group| group.vertices.iter().zip(group.targets()).all(|(v, p)| p == rest[v.index()]))
-}
-
-fn same_held(a: &[Group], b: &[Group]) -> bool {
-    a.iter().flat_map(|group| group.vertices.iter()).eq(b.iter().flat_map(|group| group.vertices.iter()))
 }
 
 fn farthest(a: &[DVec3], b: &[DVec3]) -> f64 {

@@ -46,6 +46,12 @@ impl<T> Mailbox<T> {
         if inner.closed { Err(Closed) } else { Ok(inner.letter.take()) }
     }
 
+    /// Whether a letter of that kind is there to be taken, or no more will come.
+    pub(super) fn has(&self, kind: impl FnOnce(&T) -> bool) -> bool {
+        let inner = self.lock();
+        inner.closed || inner.letter.as_ref().is_some_and(kind)
+    }
+
     /// Sleeps until a letter comes.
     pub(super) fn wait(&self) -> Result<T, Closed> {
         let mut inner = self.lock();

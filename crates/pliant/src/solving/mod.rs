@@ -6,9 +6,11 @@
 
 mod engine;
 mod mailbox;
+mod pace;
 mod request;
+mod stillness;
 mod worker;
 
-pub use engine::Engine;
+pub use engine::{Engine, Watch};
 pub use request::{SolveReport, SolveRequest, SolveState};
 pub use worker::Worker;

@@ -53,8 +53,11 @@ impl SolveRequest {
 pub enum SolveState {
     /// Nothing is held, so there is nothing to solve.
     Resting,
-    /// Building neighborhoods or factoring.
-    Preparing,
+    /// Building neighborhoods and factoring, where that takes long.
+    Preparing {
+        /// How far the search for neighborhoods is, from 0 to 1.
+        progress: f64,
+    },
     /// Energy is still falling.
     Iterating,
     /// Energy has stopped falling.

@@ -1,14 +1,16 @@
 //! The thread that iterates.
 
+use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use super::mailbox::{Closed, Mailbox};
+use super::pace::{Next, Pace};
 use super::{Engine, SolveReport, SolveRequest, SolveState};
 
-/// How long the worker iterates before it shows the surface: half a frame at 60 Hz leaves the rest to the picture.
-const REPORT_EVERY: Duration = Duration::from_millis(8);
+/// Progress is told this often: a number that changes faster cannot be read (by eye).
+const PROGRESS_EVERY: Duration = Duration::from_millis(100);
 
 /// A solver thread. Dropping this tells it to end; it does so after the iteration or factorization under way.
 pub struct Worker {
@@ -23,7 +25,7 @@ impl Worker {
         let reports = Arc::new(Mailbox::new());
         let (inbox, outbox) = (requests.clone(), reports.clone());
         std::thread::Builder::new().name("solver".into()).spawn(move || {
-            let send = |report| {
+            let send = move |report| {
                 outbox.put_over(report, keep_pose);
                 wake();
             };
@@ -52,26 +54,29 @@ impl Drop for Worker {
 
 enum Never {}
 
-fn run(inbox: &Mailbox<SolveRequest>, send: impl Fn(SolveReport)) -> Result<Never, Closed> {
+fn run(inbox: &Mailbox<SolveRequest>, mut send: impl FnMut(SolveReport) + Send) -> Result<Never, Closed> {
     let mut engine: Option<Engine> = None;
     let mut newest: Option<SolveRequest> = None;
+    let mut pace = Pace::default();
     loop {
         let is_busy = engine.as_ref().is_some_and(Engine::is_busy);
         let wish = if is_busy { inbox.take()? } else { Some(inbox.wait()?) };
         newest = wish.clone().or(newest);
         let round = catch_unwind(AssertUnwindSafe(|| {
             if let Some(wish) = wish {
-                turn_to(&mut engine, wish, &send);
+                let begun = Instant::now();
+                if turn_to(&mut engine, wish, inbox, &mut send).is_break() {
+                    return;
+                }
+                pace.turned(begun.elapsed());
             }
             let Some(engine) = &mut engine else { return };
-            let start = Instant::now();
-            while engine.is_busy() {
-                engine.step();
-                if start.elapsed() >= REPORT_EVERY {
-                    break;
-                }
+            if engine.is_busy() && pace.stepped(engine.step()) == Next::GoOn && engine.is_busy() {
+                return;
             }
+            let begun = Instant::now();
             send(engine.report());
+            pace.reported(begun.elapsed());
         }));
         if let Err(panic) = round {
             // Nothing can be said of an engine that was left halfway.
@@ -91,20 +96,38 @@ fn keep_pose(old: SolveReport, new: SolveReport) -> SolveReport {
     new
 }
 
-fn turn_to(engine: &mut Option<Engine>, wish: SolveRequest, send: impl Fn(SolveReport)) {
-    match engine {
-        Some(engine) if engine.serves(&wish) => {
-            if engine.must_refactor(&wish) && !wish.groups.is_empty() {
-                send(bare_report(&wish, SolveState::Preparing));
-            }
-            engine.adopt(wish);
-        }
-        _ => {
-            send(bare_report(&wish, SolveState::Preparing));
-            *engine = None; // frees the old factor before the new one is made
-            *engine = Some(Engine::new(wish));
-        }
+/// Breaks if a newer wish made it needless.
+fn turn_to(
+    engine: &mut Option<Engine>,
+    wish: SolveRequest,
+    inbox: &Mailbox<SolveRequest>,
+    send: &mut (impl FnMut(SolveReport) + Send),
+) -> ControlFlow<()> {
+    let known = engine.take().filter(|engine| engine.serves(&wish)); // another one is freed before a new one is made
+    if known.as_ref().is_none_or(|known| known.takes_long(&wish)) {
+        send(bare_report(&wish, SolveState::Preparing { progress: 0.0 }));
     }
+    let engine = engine.insert(known.unwrap_or_else(|| Engine::new(&wish)));
+    let mut told = Instant::now();
+    let about = wish.clone();
+    engine.adopt(wish, &mut |progress| {
+        if inbox.has(|newer| is_other_search(newer, &about)) {
+            return ControlFlow::Break(());
+        }
+        if told.elapsed() >= PROGRESS_EVERY {
+            told = Instant::now();
+            send(bare_report(&about, SolveState::Preparing { progress }));
+        }
+        ControlFlow::Continue(())
+    })
+}
+
+/// Whether what is being searched for one wish would be of no use to a newer one.
+fn is_other_search(newer: &SolveRequest, older: &SolveRequest) -> bool {
+    !Arc::ptr_eq(&newer.model, &older.model)
+        || newer.weights != older.weights
+        || newer.rigidity != older.rigidity
+        || newer.groups.is_empty()
 }
 
 fn bare_report(wish: &SolveRequest, state: SolveState) -> SolveReport {
@@ -129,4 +152,134 @@ fn failure(panic: &(dyn std::any::Any + Send)) -> SolveState {
     let text = panic.downcast_ref::<&str>().copied().or(panic.downcast_ref::<String>().map(String::as_str));
     let what = text.unwrap_or("unknown cause");
     SolveState::Failed(format!("the solver stopped unexpectedly ({what}); the last good pose is kept, undo to go on"))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Mutex;
+
+    use glam::DVec3;
+    use pliant_meshfile::MeshFile;
+    use pliant_solver::VertexId;
+
+    use super::*;
+    use crate::document::{Command, Document, GroupKind, Model};
+
+    /// A flat sheet of `n` by `n` cells, held at a corner.
+    fn sheet(n: u32) -> Document {
+        let row = n + 1;
+        let points = (0..row * row).map(|v| DVec3::new(f64::from(v % row), f64::from(v / row), 0.0)).collect();
+        let cells = (0..n * row).filter(|v| v % row < n);
+        let triangles = cells.flat_map(|v| [[v, v + 1, v + row + 1], [v, v + row + 1, v + row]]).collect();
+        let file = MeshFile::from_triangles("sheet", points, triangles);
+        let mut document = Document::new(Arc::new(Model::from_file(file).expect("a good mesh")));
+        hold(&mut document, 0);
+        document
+    }
+
+    fn hold(document: &mut Document, v: u32) {
+        let command = Command::Hold { kind: GroupKind::Handle, vertices: vec![VertexId(v)] };
+        document.apply(command).expect("the vertex exists");
+    }
+
+    fn wish(document: &Document) -> SolveRequest {
+        SolveRequest::of(document, false)
+    }
+
+    /// Turns to a wish as the worker does. Returns whether a newer one made it needless, and the states that were told.
+    fn turn(
+        engine: &mut Option<Engine>,
+        to: SolveRequest,
+        inbox: &Mailbox<SolveRequest>,
+    ) -> (ControlFlow<()>, Vec<SolveState>) {
+        let mut told = Vec::new();
+        let outcome = turn_to(engine, to, inbox, &mut |report: SolveReport| told.push(report.state));
+        (outcome, told)
+    }
+
+    #[test]
+    fn a_newer_wish_for_other_sizes_stops_the_search_for_the_older() {
+        let mut document = sheet(30);
+        let inbox = Mailbox::new();
+        let mut engine = None;
+        document.apply(Command::FillAll(3)).expect("a good size");
+        let older = wish(&document);
+        document.apply(Command::FillAll(2)).expect("a good size");
+        inbox.put(wish(&document));
+        assert!(turn(&mut engine, older, &inbox).0.is_break(), "the older search ran to its end");
+        let newer = inbox.take().expect("open").expect("still there to be taken");
+        assert!(turn(&mut engine, newer, &inbox).0.is_continue());
+        let report = engine.as_mut().expect("kept").report();
+        assert_eq!((report.revision, report.state), (document.revision(), SolveState::Settled));
+    }
+
+    #[test]
+    fn a_newer_wish_for_other_handles_leaves_the_search_alone() {
+        let mut document = sheet(30);
+        let inbox = Mailbox::new();
+        document.apply(Command::FillAll(3)).expect("a good size");
+        let older = wish(&document);
+        hold(&mut document, 40);
+        inbox.put(wish(&document));
+        assert!(turn(&mut None, older, &inbox).0.is_continue());
+    }
+
+    #[test]
+    fn a_worker_that_is_dropped_gives_up_its_search() {
+        let mut document = sheet(30);
+        let inbox = Mailbox::new();
+        document.apply(Command::FillAll(3)).expect("a good size");
+        inbox.close();
+        assert!(turn(&mut None, wish(&document), &inbox).0.is_break());
+    }
+
+    #[test]
+    fn preparing_is_told_for_a_new_mesh_and_for_sizes_everywhere_but_not_for_a_dab_or_a_handle() {
+        let preparing = SolveState::Preparing { progress: 0.0 };
+        let mut document = sheet(150); // 22,801 vertices
+        let inbox = Mailbox::new();
+        let mut engine = None;
+        assert_eq!(turn(&mut engine, wish(&document), &inbox).1.first(), Some(&preparing));
+        hold(&mut document, 40);
+        assert_eq!(turn(&mut engine, wish(&document), &inbox).1, []);
+        let values = (0..500).map(|v| (VertexId(v), 6)).collect();
+        document.apply(Command::Paint { values }).expect("good sizes");
+        assert_eq!(turn(&mut engine, wish(&document), &inbox).1, []);
+        document.apply(Command::FillAll(6)).expect("a good size");
+        assert_eq!(turn(&mut engine, wish(&document), &inbox).1.first(), Some(&preparing));
+    }
+
+    #[test]
+    fn progress_is_told_in_ascending_order_and_ends_with_a_surface() {
+        let mut document = sheet(30);
+        document.apply(Command::FillAll(4)).expect("a good size");
+        let told = Mutex::new(Vec::new());
+        let mut engine = Engine::new(&wish(&document));
+        let outcome = engine.adopt(wish(&document), &mut |progress| {
+            told.lock().expect("no one panicked").push(progress);
+            ControlFlow::Continue(())
+        });
+        let told = told.into_inner().expect("no one panicked");
+        assert!(told.is_sorted() && told.last() == Some(&1.0), "{told:?}");
+        assert!(outcome.is_continue() && engine.report().state == SolveState::Settled);
+    }
+
+    #[test]
+    fn sizes_everywhere_do_not_move_a_bent_surface() {
+        let mut document = sheet(200); // 40,401 vertices: a new solver for r = 3
+        hold(&mut document, 40_400);
+        let group = document.scene().groups[1].id;
+        let motion = glam::DAffine3::from_translation(DVec3::Z);
+        document.apply(Command::Move { group, motion }).expect("finite");
+        let inbox = Mailbox::new();
+        let mut engine = None;
+        assert!(turn(&mut engine, wish(&document), &inbox).0.is_continue());
+        engine.as_mut().expect("new").step();
+        let before = engine.as_mut().expect("new").report();
+        document.apply(Command::FillAll(3)).expect("a good size");
+        assert!(turn(&mut engine, wish(&document), &inbox).0.is_continue());
+        let mut engine = engine.expect("kept");
+        assert!(engine.is_busy(), "other sizes are another energy");
+        assert_eq!(engine.positions(), before.pose.map(|pose| pose.positions.to_vec()));
+    }
 }

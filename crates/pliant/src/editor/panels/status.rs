@@ -60,7 +60,7 @@ fn state(ui: &mut Ui, session: &Session) {
         (None, None) if session.document().is_some() => (theme::ACCENT, "Preparing".to_owned()),
         (None, None) => (Color32::GRAY, "Nothing open".to_owned()),
         (None, Some(SolveState::Resting)) => (Color32::GRAY, "No handles yet".to_owned()),
-        (None, Some(SolveState::Preparing)) => (theme::ACCENT, "Preparing".to_owned()),
+        (None, Some(SolveState::Preparing { progress })) => (theme::ACCENT, preparing(*progress)),
         (None, Some(SolveState::Iterating)) => (theme::ACCENT, "Iterating".to_owned()),
         (None, Some(SolveState::Settled)) => (Color32::from_rgb(92, 180, 110), "Settled".to_owned()),
         (None, Some(SolveState::Failed(why))) => (Color32::from_rgb(226, 92, 80), format!("Cannot solve: {why}")),
@@ -68,6 +68,11 @@ fn state(ui: &mut Ui, session: &Session) {
     let (rect, _) = ui.allocate_exact_size(egui::vec2(10.0, 16.0), egui::Sense::hover());
     ui.painter().circle_filled(rect.center(), 4.0, color);
     ui.label(text);
+}
+
+/// Without a number where there is none to tell yet.
+fn preparing(progress: f64) -> String {
+    if progress > 0.0 { format!("Preparing {:>2.0} %", (progress * 100.0).floor()) } else { "Preparing".to_owned() }
 }
 
 /// 12345 as `12 345`.
@@ -90,7 +95,14 @@ fn scientific(value: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::grouped;
+    use super::{grouped, preparing};
+
+    #[test]
+    fn preparing_tells_whole_percents_once_there_are_some() {
+        for (progress, expected) in [(0.0, "Preparing"), (0.079, "Preparing  7 %"), (0.5, "Preparing 50 %")] {
+            assert_eq!(preparing(progress), expected);
+        }
+    }
 
     #[test]
     fn large_numbers_are_grouped_by_thousands() {
