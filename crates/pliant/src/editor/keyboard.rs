@@ -1,14 +1,12 @@
 //! Keys: shortcuts of actions, digits for the current r, F for the brush radius, Esc for the tool.
 
-use std::time::{Duration, Instant};
-
 use egui::{Event, Key, Modifiers};
 
 use super::{Action, Session};
 use crate::tools::{Input, Options, ToolKey};
 
-/// Two digits typed within this time, with nothing else between, are one number.
-const TYPED_TOGETHER: Duration = Duration::from_millis(600);
+/// Two digits typed within this time, with nothing else between, are one number. By hand: slow typing takes half of it.
+const TYPED_TOGETHER_SECS: f64 = 0.6;
 
 const DIGITS: [Key; 10] =
     [Key::Num0, Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5, Key::Num6, Key::Num7, Key::Num8, Key::Num9];
@@ -16,7 +14,8 @@ const DIGITS: [Key; 10] =
 /// What must be remembered between key presses.
 #[derive(Default)]
 pub(super) struct Keyboard {
-    last_digit: Option<(u16, Instant)>,
+    /// The digit, and the window's time in seconds when it was typed.
+    last_digit: Option<(u16, f64)>,
 }
 
 impl Keyboard {
@@ -65,9 +64,9 @@ impl Keyboard {
             if !ctx.input_mut(|input| input.consume_key(Modifiers::NONE, key)) {
                 continue;
             }
-            let now = Instant::now();
+            let now = ctx.input(|input| input.time);
             let r = match self.last_digit {
-                Some((tens, at)) if now.duration_since(at) < TYPED_TOGETHER => tens * 10 + digit,
+                Some((tens, at)) if now - at < TYPED_TOGETHER_SECS => tens * 10 + digit,
                 _ => digit,
             };
             self.last_digit = (r < 10).then_some((r, now));
