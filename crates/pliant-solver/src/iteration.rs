@@ -4,9 +4,8 @@ use glam::{DMat3, DQuat, DVec3};
 
 use crate::analysis::Layout;
 use crate::energy::{DIRECT_BELOW, Noise, component_frames, framed_terms, vertex_energies};
-use crate::gathers::Gathers;
 use crate::linear::System;
-use crate::nines::{Eight, Nine, Nines, NinesRef, Rotations};
+use crate::nines::{Eight, Nine, Nines, NinesRef};
 use crate::parallel::{CHUNK, chunks, chunks_with};
 use crate::quad::Quad;
 use crate::rings::Rings;
@@ -22,7 +21,7 @@ use crate::wide::{Kernel, Wide, dispatch};
 pub(crate) struct Pose {
     pub(crate) positions: Vec<DVec3>,
     /// R_k as matrices, kept equal to `turns`.
-    rotations: Rotations,
+    rotations: Nines,
     /// R_k as unit quaternions.
     pub(crate) turns: Vec<DQuat>,
 }
@@ -44,8 +43,8 @@ impl Clone for Pose {
 impl Pose {
     pub(crate) fn at_rest(rest: &[DVec3]) -> Pose {
         let n = rest.len();
-        let mut pose =
-            Pose { positions: rest.to_vec(), rotations: Rotations::zeros(n), turns: vec![DQuat::IDENTITY; n] };
+        let mut pose = Pose { positions: rest.to_vec(), rotations: Nines::default(), turns: vec![DQuat::IDENTITY; n] };
+        pose.rotations.resize(n);
         pose.set_turns(|_| DQuat::IDENTITY);
         pose
     }
@@ -75,15 +74,14 @@ pub(crate) struct LocalOutcome {
 pub(crate) struct Workspace {
     /// f_e.
     pulls: Vec<Quad>,
-    /// P, or Q; empty with r = 1 everywhere.
+    /// P; empty with r = 1 everywhere.
     prefix: Nines,
-    gathers: Gathers,
     /// First slot of every block.
     slot_bounds: Vec<u32>,
     /// Right-hand side and solution of the system.
     pub(crate) rhs: Vec<Quad>,
-    /// Σ d w ‖e‖².
-    rest_squares: f64,
+    /// Σ d w ‖e‖² of every block of edges.
+    rest_squares: Vec<f64>,
     /// Two numbers per vertex: terms of its energy.
     terms: Vec<[f64; 2]>,
     energies: Vec<f64>,
@@ -101,10 +99,9 @@ impl Workspace {
         Workspace {
             pulls: Vec::new(),
             prefix: Nines::default(),
-            gathers: Gathers::default(),
             slot_bounds: layout.slot_bounds(),
             rhs: vec![Quad::ZERO; n],
-            rest_squares: 0.0,
+            rest_squares: vec![0.0; layout.n_blocks()],
             terms: Vec::new(),
             energies: vec![0.0; n],
             frames: Vec::with_capacity(layout.component.iter().max().map_or(0, |&last| last as usize + 1)),
@@ -113,15 +110,18 @@ impl Workspace {
         }
     }
 
-    /// Prepares for these rings; r = 1 everywhere needs nothing per edge.
-    pub(crate) fn fit(&mut self, layout: &Layout, rings: &Rings) {
+    /// Prepares for these rings; r = 1 everywhere needs nothing per edge. Outside of the blocks `touched`, the d_e are
+    /// those of the last time.
+    pub(crate) fn fit(&mut self, layout: &Layout, rings: &Rings, touched: &[usize]) {
         let has_runs = rings.neighborhoods.has_runs();
         self.prefix.resize(if has_runs { layout.n_edges() + layout.n_blocks() } else { 0 });
         self.pulls.resize(if has_runs { layout.n_edges() } else { 0 }, Quad::ZERO);
-        self.gathers = if has_runs { Gathers::new(layout, &rings.transpose) } else { Gathers::default() };
         self.terms.resize(rings.moments.len(), [0.0; 2]);
-        let squares = layout.edge_rest.iter().zip(&rings.stiffness).map(|(e, s)| s * e.length_squared());
-        self.rest_squares = squares.collect::<Vec<_>>().chunks(CHUNK).map(|chunk| chunk.iter().sum::<f64>()).sum();
+        for &block in touched {
+            let edges = layout.blocks[block] as usize..layout.blocks[block + 1] as usize;
+            self.rest_squares[block] =
+                edges.map(|e| rings.stiffness[e] * layout.edge_rest[e].length_squared()).sum::<f64>();
+        }
     }
 
     /// Given R, the p' of least energy (3.2.1): solves for the correction, p' ← p' + A⁻¹ (b − A p'), so that rounding of
@@ -146,14 +146,14 @@ impl Workspace {
 
     /// b − A p' into `rhs`, which is minus half the gradient of the energy; 0 at fixed vertices.
     pub(crate) fn gradient(&mut self, layout: &Layout, rings: &Rings, is_fixed: &[bool], pose: &Pose) {
-        let Workspace { pulls, prefix, gathers, rhs, .. } = self;
+        let Workspace { pulls, prefix, rhs, .. } = self;
         let now = Now { layout, positions: Flat::new(&pose.positions) };
         let rotations = pose.rotations.as_slices();
         if prefix.is_empty() {
             vertex_pulls(is_fixed, StarPull { now, rotations }, rhs);
         } else {
             let r = &rings.neighborhoods.r[..];
-            edge_pulls((&rings.stiffness, r), now, (gathers, rotations), pulls, prefix);
+            edge_pulls((&rings.stiffness, r), now, (&rings.transpose, rotations), pulls);
             vertex_pulls(is_fixed, GatheredPull { layout, pulls }, rhs);
         }
     }
@@ -169,7 +169,7 @@ impl Workspace {
         }
         let n = turns.len();
         let prefix = prefix.as_slices();
-        let out = (&mut turns[..], &mut rotations.eights[..n], &mut rotations.ninths[..n]);
+        let out = (&mut turns[..], &mut rotations.eights[..], &mut rotations.ninths[..]);
         chunks_with(n, out, parts, |first, (turns, eights, ninths)| {
             dispatch(Turn { rings, now, prefix, ties, first, turns, eights, ninths })
         });
@@ -177,7 +177,7 @@ impl Workspace {
         if prefix.ninths.is_empty() {
             squares = part.squares;
         }
-        let scale = squares + self.rest_squares;
+        let scale = squares + self.rest_squares.iter().sum::<f64>();
         let sums = if rings.has_negative { absolute_squares(rings, now) } else { scale };
         let noise = Noise::new(sums, rings.total_stiffness, part.largest);
         let mut energy = scale - 2.0 * part.gain;
@@ -271,8 +271,8 @@ struct Turn<'a> {
     ties: Ties,
     first: usize,
     turns: &'a mut [DQuat],
-    eights: &'a mut [[Eight; 2]],
-    ninths: &'a mut [[f64; 2]],
+    eights: &'a mut [Eight],
+    ninths: &'a mut [f64],
 }
 
 impl Kernel for Turn<'_> {
@@ -326,7 +326,7 @@ mod tests {
             let neighborhoods = Neighborhoods::new(&analysis, &rigidity).expect("one size per vertex");
             let rings = Rings::new(layout, neighborhoods);
             let mut workspace = Workspace::new(layout);
-            workspace.fit(layout, &rings);
+            workspace.fit(layout, &rings, &Vec::from_iter(0..layout.n_blocks()));
             let mut pose = Pose::at_rest(&layout.rest);
             pose.positions.iter_mut().for_each(|p| *p += random.vector() * 0.3);
             let turns: Vec<DQuat> = (0..n).map(|_| DQuat::from_scaled_axis(random.vector())).collect();

@@ -81,7 +81,6 @@ mod edge_order;
 mod edge_set;
 mod energy;
 mod error;
-mod gathers;
 mod held;
 mod hilbert;
 mod ids;

@@ -36,12 +36,6 @@ impl Nine {
         [ax, ay, az, bx, by, bz, cx, cy, self.ninth]
     }
 
-    /// Itself and the negative.
-    #[inline(always)]
-    pub(crate) fn both_signs(self) -> ([Eight; 2], [f64; 2]) {
-        ([self.eight, Eight(self.eight.0.map(|x| -x))], [self.ninth, -self.ninth])
-    }
-
     #[inline(always)]
     pub(crate) fn from_entries(m: [f64; 9]) -> Nine {
         Nine { eight: Eight([m[0], m[1], m[2], m[6], m[3], m[4], m[5], m[7]]), ninth: m[8] }
@@ -67,6 +61,18 @@ pub(crate) struct Nines {
     pub(crate) ninths: Vec<f64>,
 }
 
+impl Clone for Nines {
+    fn clone(&self) -> Nines {
+        Nines { eights: self.eights.clone(), ninths: self.ninths.clone() }
+    }
+
+    /// Into the same memory, which a derived one would not use.
+    fn clone_from(&mut self, other: &Nines) {
+        self.eights.clone_from(&other.eights);
+        self.ninths.clone_from(&other.ninths);
+    }
+}
+
 impl Nines {
     pub(crate) fn resize(&mut self, n: usize) {
         self.eights.resize(n, Eight::ZERO);
@@ -75,6 +81,15 @@ impl Nines {
 
     pub(crate) fn is_empty(&self) -> bool {
         self.ninths.is_empty()
+    }
+
+    pub(crate) fn set(&mut self, i: usize, matrix: DMat3) {
+        let Nine { eight, ninth } = matrix.into();
+        (self.eights[i], self.ninths[i]) = (eight, ninth);
+    }
+
+    pub(crate) fn get(&self, i: usize) -> DMat3 {
+        self.as_slices().get(i).into()
     }
 
     #[inline(always)]
@@ -90,47 +105,16 @@ pub(crate) struct NinesRef<'a> {
     pub(crate) ninths: &'a [f64],
 }
 
-impl NinesRef<'_> {
+impl<'a> NinesRef<'a> {
+    /// The same; a loop that begins with it checks one bound per matrix instead of two.
+    #[inline(always)]
+    pub(crate) fn of_one_length(self) -> NinesRef<'a> {
+        let n = self.eights.len().min(self.ninths.len());
+        NinesRef { eights: &self.eights[..n], ninths: &self.ninths[..n] }
+    }
+
     #[inline(always)]
     pub(crate) fn get(self, i: usize) -> Nine {
         Nine { eight: self.eights[i], ninth: self.ninths[i] }
-    }
-}
-
-/// A list of rotations R, each followed by −R: what is subtracted is added then. After the last there are zeros, for
-/// sums that need to be filled up.
-pub(crate) struct Rotations {
-    pub(crate) eights: Vec<[Eight; 2]>,
-    pub(crate) ninths: Vec<[f64; 2]>,
-}
-
-impl Clone for Rotations {
-    fn clone(&self) -> Rotations {
-        Rotations { eights: self.eights.clone(), ninths: self.ninths.clone() }
-    }
-
-    /// Into the same memory, which a derived one would not use.
-    fn clone_from(&mut self, other: &Rotations) {
-        self.eights.clone_from(&other.eights);
-        self.ninths.clone_from(&other.ninths);
-    }
-}
-
-impl Rotations {
-    pub(crate) fn zeros(n: usize) -> Rotations {
-        Rotations { eights: vec![[Eight::ZERO; 2]; n + 1], ninths: vec![[0.0; 2]; n + 1] }
-    }
-
-    pub(crate) fn set(&mut self, k: usize, rotation: DMat3) {
-        (self.eights[k], self.ninths[k]) = Nine::from(rotation).both_signs();
-    }
-
-    pub(crate) fn get(&self, k: usize) -> DMat3 {
-        Nine { eight: self.eights[k][0], ninth: self.ninths[k][0] }.into()
-    }
-
-    /// Rotation k is number 2 k.
-    pub(crate) fn as_slices(&self) -> NinesRef<'_> {
-        NinesRef { eights: self.eights.as_flattened(), ninths: self.ninths.as_flattened() }
     }
 }

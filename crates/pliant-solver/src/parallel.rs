@@ -13,6 +13,12 @@ pub(crate) fn is_worth_sharing(n: usize) -> bool {
     n >= WORTH_SHARING
 }
 
+/// Runs `f`, which has many loops over `n` items, on one of the threads that share them: handing over once costs less
+/// than handing over every loop.
+pub(crate) fn on_pool<T: Send>(n: usize, f: impl FnOnce() -> T + Send) -> T {
+    if is_worth_sharing(n) && rayon::current_thread_index().is_none() { rayon::scope(|_| f()) } else { f() }
+}
+
 /// Slices that are cut together.
 pub(crate) trait Cut: Sized + Send {
     /// The first `at` items, and the others.

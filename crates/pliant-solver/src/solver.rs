@@ -11,6 +11,7 @@ use crate::iteration::{LocalOutcome, Pose, Workspace};
 use crate::lbfgs::{Lbfgs, Verdict};
 use crate::linear::{FactorError, System};
 use crate::mesh::is_usable;
+use crate::parallel::on_pool;
 use crate::rings::Rings;
 use crate::rotations::Ties;
 use crate::{LooseComponents, Neighborhoods, Rigidity, SolveError, Start, VertexId, Weights};
@@ -103,7 +104,7 @@ impl Solver {
         let held = Held::new(layout, held, &layout.rest, loose)?;
         let system = System::new(analysis.pattern.clone()).map_err(|error| explain(&analysis, error))?;
         let mut workspace = Workspace::new(layout);
-        workspace.fit(layout, &rings);
+        workspace.fit(layout, &rings, &Vec::from_iter(0..layout.n_blocks()));
         let mut solver = Solver {
             rigidity: rigidity.clone(),
             policy: loose,
@@ -164,7 +165,7 @@ impl Solver {
             }
         }
         self.rigidity = rigidity.clone();
-        self.workspace.fit(&self.analysis.layout, &self.rings);
+        self.workspace.fit(&self.analysis.layout, &self.rings, &touched);
         self.refresh();
         Ok(())
     }
@@ -238,8 +239,10 @@ impl Solver {
 
     /// Global then local (3.2.1, 3.2.2). Energy is that of eq. (1) after the local step.
     pub fn step(&mut self) -> StepReport {
-        self.global_step();
-        self.local_step()
+        on_pool(self.pose.positions.len(), || {
+            self.global_step();
+            self.local_step()
+        })
     }
 
     /// Held vertices go exactly to their targets and the free ones to where the energy is least for the current

@@ -110,12 +110,13 @@ impl Stars {
         rotations: NinesRef<'_>,
         i: usize,
     ) -> W::Four {
+        let rotations = rotations.of_one_length();
         let center = now.get(wide, i);
         let range = Stars::range(layout, i);
         let (mut eight, mut ninth) = (wide.eight([0.0; 8]), 0.0);
         let (mut rests, mut drift) = (wide.splat4(0.0), wide.splat4(0.0));
         for (&j, &Quad(rest)) in self.neighbors[range.clone()].iter().zip(&self.spokes[range]) {
-            let Nine { eight: r, ninth: r9 } = rotations.get(2 * j as usize);
+            let Nine { eight: r, ninth: r9 } = rotations.get(j as usize);
             let edge = wide.sub4(center, now.get(wide, j as usize));
             ninth += r9 * rest[2];
             let (weight, rest) = (wide.splat4(rest[3]), wide.four(rest));
@@ -123,7 +124,7 @@ impl Stars {
             rests = wide.add4(rests, rest);
             drift = wide.fma4(edge, weight, drift);
         }
-        let Nine { eight: r, ninth: r9 } = rotations.get(2 * i);
+        let Nine { eight: r, ninth: r9 } = rotations.get(i);
         eight = wide.fma8(wide.eight(r.0), wide.columns(rests), eight);
         let last = wide.fma4(wide.splat4(r9), rests, wide.splat4(ninth));
         wide.sub4(wide.folded(eight, last), wide.add4(drift, drift))

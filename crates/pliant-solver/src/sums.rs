@@ -14,12 +14,12 @@
 use glam::{DMat3, DVec3};
 
 use crate::analysis::Layout;
-use crate::gathers::Gathers;
 use crate::neighborhoods::Neighborhoods;
 use crate::nines::{Eight, Nine, Nines, NinesRef};
 use crate::parallel::{chunks, pieces, pieces_with};
 use crate::quad::Quad;
 use crate::stars::Flat;
+use crate::transpose::{GROUP, GroupSums, Transpose};
 use crate::wide::{Kernel, Wide, dispatch};
 
 /// A vector per edge.
@@ -119,6 +119,7 @@ pub(crate) fn run_sum<W: Wide>(
     prefix: NinesRef<'_>,
     k: usize,
 ) -> (W::Eight, f64) {
+    let prefix = prefix.of_one_length();
     let mut sums = [(wide.eight([0.0; 8]), 0.0); 2];
     let (pairs, last) = neighborhoods.runs(k).as_chunks::<2>();
     for &[one, other] in pairs {
@@ -170,18 +171,15 @@ impl Kernel for RunSum<'_> {
     }
 }
 
-/// f_e of every edge. Q is written to the slots of the prefix sums.
+/// f_e of every edge.
 pub(crate) fn edge_pulls(
     (stiffness, r): (&[f64], &[u16]),
     now: Now<'_>,
-    (gathers, rotations): (&Gathers, NinesRef<'_>),
+    (transpose, rotations): (&Transpose, NinesRef<'_>),
     pulls: &mut [Quad],
-    q: &mut Nines,
 ) {
-    let m = pulls.len();
-    let q = (&mut q.eights[..m], &mut q.ninths[..m]);
-    pieces(&now.layout.blocks, (pulls, q.0, q.1), |block, (pulls, eights, ninths)| {
-        dispatch(PullBlock { stiffness, r, now, gathers, rotations, block, pulls, q: (eights, ninths) });
+    pieces(&now.layout.blocks, pulls, |block, pulls| {
+        dispatch(PullBlock { stiffness, r, now, transpose, rotations, block, pulls });
     });
 }
 
@@ -190,30 +188,48 @@ struct PullBlock<'a> {
     stiffness: &'a [f64],
     r: &'a [u16],
     now: Now<'a>,
-    gathers: &'a Gathers,
+    transpose: &'a Transpose,
     rotations: NinesRef<'a>,
     block: usize,
     pulls: &'a mut [Quad],
-    q: (&'a mut [Eight], &'a mut [f64]),
 }
 
 impl Kernel for PullBlock<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn run<W: Wide>(self, wide: W) {
-        let PullBlock { stiffness, r, now, gathers, rotations, block, pulls, q: (eights, ninths) } = self;
-        gathers.sum(wide, block, rotations, (&mut *eights, &mut *ninths));
-        let layout = now.layout;
-        let edges = layout.blocks[block] as usize..layout.blocks[block + 1] as usize;
+    fn run<W: Wide>(mut self, wide: W) {
+        let end = self.now.layout.blocks[self.block + 1] as usize + self.block;
+        let mut slot = self.now.layout.blocks[self.block] as usize + self.block;
+        let mut running = (wide.eight([0.0; 8]), 0.0);
+        let mut sums = GroupSums::zeros();
+        // Q goes no farther than the first cache.
+        while slot < end {
+            let next = (slot + 1).next_multiple_of(GROUP).min(end);
+            self.transpose.sum(wide, slot..next, self.rotations, &mut running, &mut sums);
+            self.pulls(wide, slot, next, &sums);
+            slot = next;
+        }
+    }
+}
+
+impl PullBlock<'_> {
+    /// f_e of the edges of some slots of one group.
+    #[inline(always)]
+    fn pulls<W: Wide>(&mut self, wide: W, slot: usize, end: usize, q: &GroupSums) {
+        let PullBlock { stiffness, r, now, rotations, block, pulls, .. } = self;
+        let (layout, edges) = (now.layout, slot - *block..end - *block);
+        let places = slot % GROUP..slot % GROUP + edges.len();
+        let first = layout.blocks[*block] as usize;
+        let pulls = &mut pulls[edges.start - first..edges.end - first];
         let constants = layout.stars.edges[edges.clone()].iter().zip(&stiffness[edges.clone()]);
-        let sums = eights.iter().zip(ninths.iter());
+        let sums = q.eights[places.clone()].iter().zip(&q.ninths[places]);
         for (((e, pull), (&Eight(eight), &ninth)), (&Quad(rest), &s)) in edges.zip(pulls).zip(sums).zip(constants) {
             let (mut eight, mut ninth) = (wide.eight(eight), ninth);
             for end in layout.edges[e] {
                 let end = end as usize;
                 if r[end] == 1 {
-                    let own = rotations.get(2 * end);
+                    let own = rotations.get(end);
                     (eight, ninth) = (wide.add8(eight, wide.eight(own.eight.0)), ninth + own.ninth);
                 }
             }

@@ -4,23 +4,41 @@
 //! sum along the block. The pluses and minuses are stored by slot, so that a block gathers them without any two
 //! threads writing to the same place. What would be subtracted after the last edge of a block is left out.
 //!
+//! Lists of different lengths cost more in mispredicted branches than in sums. So those of a slot are cut into *steps*
+//! of four entries, filled up with ones that count nothing, and a block is one plain loop over steps. Every slot has a
+//! step.
+//!
 //! Entries of a slot ascend by vertex, whatever the order in which they came to be: sums over them have the same bits
 //! after a repainting as after a new build. They lie in chunks of slots, of which a repainting writes only those anew
 //! that it touches.
+
+use std::ops::Range;
 
 use rayon::prelude::*;
 
 use crate::analysis::Layout;
 use crate::neighborhoods::{Changes, Neighborhoods};
+use crate::nines::{Eight, NinesRef};
 use crate::search::{Batch, SOURCES};
+use crate::wide::Wide;
 
 /// Set in an entry that is subtracted.
-pub(crate) const MINUS: u32 = 1 << 31;
+const MINUS: u32 = 1 << 31;
+/// An entry that counts nothing. The vertices of a mesh that fits memory are fewer.
+const NOBODY: u32 = 1 << 30;
+/// How the two highest bits of an entry count.
+const SIGNS: [f64; 4] = [1.0, 0.0, -1.0, 0.0];
+
+/// Entries that are added at once. With eight, more of them are empty than the loop gains.
+const STEP: usize = 4;
 
 /// Slots per chunk: as many as a block has, some hundred kilobytes at r = 10.
 const SLOTS: usize = 2048;
 
-/// The ends of all runs, by slot. Memory: 4 bytes per end and 4 per slot.
+/// Slots whose sums are kept at a time: few enough for the first cache.
+pub(crate) const GROUP: usize = 64;
+
+/// The ends of all runs, by slot. Memory: some 5 bytes per end and 8 per slot.
 pub(crate) struct Transpose {
     chunks: Vec<Chunk>,
 }
@@ -28,10 +46,24 @@ pub(crate) struct Transpose {
 /// The ends at [`SLOTS`] consecutive slots.
 #[derive(Clone, PartialEq, Eq, Debug)]
 struct Chunk {
-    /// Entries of the i-th slot: `entries[offsets[i]..offsets[i + 1]]`.
+    /// Steps of the i-th slot: `steps[offsets[i]..offsets[i + 1]]`.
     offsets: Vec<u32>,
-    /// Vertex, with [`MINUS`] or without; ascending by vertex at each slot.
-    entries: Vec<u32>,
+    /// Vertex, with [`MINUS`] or without, ascending by vertex at each slot, then [`NOBODY`].
+    steps: Vec<[u32; STEP]>,
+    /// The slot of each step, in its group.
+    slot_of: Vec<u8>,
+}
+
+/// Q of the slots of a group.
+pub(crate) struct GroupSums {
+    pub(crate) eights: [Eight; GROUP],
+    pub(crate) ninths: [f64; GROUP],
+}
+
+impl GroupSums {
+    pub(crate) fn zeros() -> GroupSums {
+        GroupSums { eights: [Eight::ZERO; GROUP], ninths: [0.0; GROUP] }
+    }
 }
 
 impl Transpose {
@@ -64,18 +96,42 @@ impl Transpose {
     }
 
     /// The ends at a slot, each a vertex, with [`MINUS`] or without, ascending by vertex.
-    #[inline]
-    pub(crate) fn entries(&self, slot: usize) -> &[u32] {
-        let (chunk, i) = (&self.chunks[slot / SLOTS], slot % SLOTS);
-        &chunk.entries[chunk.offsets[i] as usize..chunk.offsets[i + 1] as usize]
+    fn entries(&self, slot: usize) -> impl Iterator<Item = u32> {
+        self.chunks[slot / SLOTS].entries(slot % SLOTS)
     }
 
-    /// Calls `plus(k)` or `minus(k)` for every run that begins or ends at a slot.
-    #[inline]
-    pub(crate) fn at(&self, slot: usize, mut f: impl FnMut(usize, bool)) {
-        for &entry in self.entries(slot) {
-            f((entry & !MINUS) as usize, entry & MINUS == 0);
+    /// Q of some slots of one group, slot s at place s % [`GROUP`], continuing the `running` sum.
+    #[inline(always)]
+    pub(crate) fn sum<W: Wide>(
+        &self,
+        wide: W,
+        slots: Range<usize>,
+        rotations: NinesRef<'_>,
+        running: &mut (W::Eight, f64),
+        sums: &mut GroupSums,
+    ) {
+        let chunk = &self.chunks[slots.start / SLOTS];
+        let first = slots.start % SLOTS;
+        let steps = chunk.offsets[first] as usize..chunk.offsets[first + slots.len()] as usize;
+        let NinesRef { eights, ninths } = rotations.of_one_length();
+        let (mut eight, mut ninth) = *running;
+        for (step, &slot) in chunk.steps[steps.clone()].iter().zip(&chunk.slot_of[steps]) {
+            let (mut one, mut one_ninth) = (wide.eight([0.0; 8]), 0.0);
+            let (mut other, mut other_ninth) = (wide.eight([0.0; 8]), 0.0);
+            for &[a, b] in step.as_chunks().0 {
+                let (sign, k) = (SIGNS[(a >> 30) as usize], (a & !(MINUS | NOBODY)) as usize);
+                one = wide.fma8(wide.eight(eights[k].0), wide.splat8(sign), one);
+                one_ninth += ninths[k] * sign;
+                let (sign, k) = (SIGNS[(b >> 30) as usize], (b & !(MINUS | NOBODY)) as usize);
+                other = wide.fma8(wide.eight(eights[k].0), wide.splat8(sign), other);
+                other_ninth += ninths[k] * sign;
+            }
+            eight = wide.add8(eight, wide.add8(one, other));
+            ninth += one_ninth + other_ninth;
+            let place = slot as usize % GROUP;
+            (sums.eights[place], sums.ninths[place]) = (Eight(wide.array8(eight)), ninth);
         }
+        *running = (eight, ninth);
     }
 
     /// The number of neighborhoods with runs that contain each edge of a block.
@@ -83,9 +139,7 @@ impl Transpose {
         let mut running = 0i32;
         (layout.blocks[block] as usize..layout.blocks[block + 1] as usize).map(move |e| {
             if !self.is_empty() {
-                let entries = self.entries(e + block);
-                let n_minus: i32 = entries.iter().map(|&entry| (entry >> 31) as i32).sum();
-                running += entries.len() as i32 - 2 * n_minus;
+                running += self.entries(e + block).map(|entry| if entry & MINUS == 0 { 1 } else { -1 }).sum::<i32>();
             }
             running as u32
         })
@@ -122,6 +176,24 @@ impl Transpose {
 }
 
 impl Chunk {
+    fn entries(&self, i: usize) -> impl Iterator<Item = u32> {
+        let steps = &self.steps[self.offsets[i] as usize..self.offsets[i + 1] as usize];
+        steps.as_flattened().iter().copied().filter(|&entry| entry != NOBODY)
+    }
+
+    /// Nobody at any slot, but room for so many.
+    fn with_room(counts: &[u32]) -> Chunk {
+        let mut offsets = vec![0u32];
+        let mut slot_of = Vec::new();
+        for (i, count) in counts.iter().enumerate() {
+            let n = count.div_ceil(STEP as u32).max(1);
+            offsets.push(offsets[i] + n);
+            slot_of.extend((0..n).map(|_| (i % GROUP) as u8));
+        }
+        slot_of.shrink_to_fit();
+        Chunk { steps: vec![[NOBODY; STEP]; slot_of.len()], offsets, slot_of }
+    }
+
     /// Chunk `c` from its ends (slot, entry), those of one slot ascending by vertex.
     fn of_ends(c: usize, ends: &[(u32, u32)], closing: &[u32]) -> Chunk {
         let mut is_kept = [true; SLOTS];
@@ -131,30 +203,29 @@ impl Chunk {
             .map_while(|&slot| (slot as usize).checked_sub(c * SLOTS).filter(|&i| i < SLOTS))
             .for_each(|i| is_kept[i] = false);
         let place = |slot: u32| slot as usize % SLOTS;
-        let mut offsets = vec![0u32; SLOTS + 1];
+        let mut counts = vec![0u32; SLOTS];
         for &(slot, _) in ends {
-            offsets[place(slot) + 1] += u32::from(is_kept[place(slot)]);
+            counts[place(slot)] += u32::from(is_kept[place(slot)]);
         }
-        (0..SLOTS).for_each(|i| offsets[i + 1] += offsets[i]);
-        let mut next = offsets.clone();
-        let mut entries = vec![0u32; offsets[SLOTS] as usize];
+        let mut chunk = Chunk::with_room(&counts);
+        let mut next: Vec<usize> = chunk.offsets.iter().map(|&step| step as usize * STEP).collect();
+        let entries = chunk.steps.as_flattened_mut();
         for &(slot, entry) in ends.iter().filter(|&&(slot, _)| is_kept[place(slot)]) {
             let at = &mut next[place(slot)];
-            entries[*at as usize] = entry;
+            entries[*at] = entry;
             *at += 1;
         }
-        Chunk { offsets, entries }
+        chunk
     }
 
     /// Chunk `c` without the changed vertices, but with their new ends, sorted by slot and vertex.
     fn merged(&self, c: usize, ends: &[(u32, u32)], is_changed: &[bool]) -> Chunk {
-        let mut offsets = Vec::with_capacity(SLOTS + 1);
-        let mut entries = Vec::with_capacity(self.entries.len() + ends.len());
+        let mut counts = Vec::with_capacity(SLOTS);
+        let mut entries = Vec::with_capacity(self.steps.len() * STEP + ends.len());
         let mut fresh = ends.iter().peekable();
-        offsets.push(0);
         for i in 0..SLOTS {
-            let slot = (c * SLOTS + i) as u32;
-            for &entry in &self.entries[self.offsets[i] as usize..self.offsets[i + 1] as usize] {
+            let (slot, before) = ((c * SLOTS + i) as u32, entries.len());
+            for entry in self.entries(i) {
                 let k = entry & !MINUS;
                 while let Some(&(_, fresh)) = fresh.next_if(|&&(at, fresh)| at == slot && fresh & !MINUS < k) {
                     entries.push(fresh);
@@ -166,10 +237,17 @@ impl Chunk {
             while let Some(&(_, fresh)) = fresh.next_if(|&&(at, _)| at == slot) {
                 entries.push(fresh);
             }
-            offsets.push(entries.len() as u32);
+            counts.push((entries.len() - before) as u32);
         }
-        entries.shrink_to_fit();
-        Chunk { offsets, entries }
+        let mut chunk = Chunk::with_room(&counts);
+        let mut rest = &entries[..];
+        for (i, &count) in counts.iter().enumerate() {
+            let (mine, later) = rest.split_at(count as usize);
+            let first = chunk.offsets[i] as usize * STEP;
+            chunk.steps.as_flattened_mut()[first..first + mine.len()].copy_from_slice(mine);
+            rest = later;
+        }
+        chunk
     }
 }
 
@@ -215,8 +293,8 @@ fn collect_ends(k: u32, runs: &[[u32; 2]], c: usize, ends: &mut Vec<(u32, u32)>)
 #[cfg(test)]
 impl Transpose {
     /// Everything, for comparison bit by bit.
-    pub(crate) fn contents(&self) -> Vec<(&[u32], &[u32])> {
-        self.chunks.iter().map(|chunk| (&chunk.offsets[..], &chunk.entries[..])).collect()
+    pub(crate) fn contents(&self) -> Vec<(&[u32], &[[u32; STEP]])> {
+        self.chunks.iter().map(|chunk| (&chunk.offsets[..], &chunk.steps[..])).collect()
     }
 }
 
@@ -256,7 +334,7 @@ mod tests {
             assert!(transpose.entries(slot).is_sorted_by(|a, b| a & !MINUS < b & !MINUS), "slot {slot}");
         }
         for slot in closing_slots(layout) {
-            assert!(transpose.entries(slot as usize).is_empty(), "slot {slot}");
+            assert_eq!(transpose.entries(slot as usize).next(), None, "slot {slot}");
         }
     }
 }

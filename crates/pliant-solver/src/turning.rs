@@ -69,7 +69,7 @@ impl Lot {
         simd: S,
         ties: Ties,
         turns: &mut [DQuat],
-        (eights, ninths): (&mut [[Eight; 2]], &mut [[f64; 2]]),
+        (eights, ninths): (&mut [Eight], &mut [f64]),
     ) -> f64 {
         let n = turns.len().min(LOT);
         self.newton(simd);
@@ -78,7 +78,8 @@ impl Lot {
                 self.solve_alone(lane, ties);
             }
             turns[lane] = DQuat::from_array(lane_of(&self.q, lane));
-            (eights[lane], ninths[lane]) = Nine::from_entries(lane_of(&self.r, lane)).both_signs();
+            let Nine { eight, ninth } = Nine::from_entries(lane_of(&self.r, lane));
+            (eights[lane], ninths[lane]) = (eight, ninth);
         }
         self.gain[n..].fill(0.0);
         let mut sums = [0.0; 8];
@@ -258,7 +259,7 @@ mod tests {
         matrices: &'a [DMat3],
         turns: &'a mut [DQuat],
         ties: Ties,
-        out: (&'a mut [[Eight; 2]], &'a mut [[f64; 2]]),
+        out: (&'a mut [Eight], &'a mut [f64]),
     }
 
     impl Kernel for Solve<'_> {
@@ -300,7 +301,7 @@ mod tests {
                 })
                 .collect();
             let ties = if n % 2 == 0 { Ties::Nearest } else { Ties::Nudged };
-            let (mut eights, mut ninths) = (vec![[Eight::ZERO; 2]; n], vec![[0.0; 2]; n]);
+            let (mut eights, mut ninths) = (vec![Eight::ZERO; n], vec![0.0; n]);
             let mut turns = before.clone();
             let gain =
                 dispatch(Solve { matrices: &matrices, turns: &mut turns, ties, out: (&mut eights, &mut ninths) });
@@ -308,7 +309,7 @@ mod tests {
             for lane in 0..n {
                 let (t, case) = (matrices[lane], (lane + n) % 12);
                 let expected = best_rotation(t, before[lane], ties);
-                let got = DMat3::from(Nine { eight: eights[lane][0], ninth: ninths[lane][0] });
+                let got = DMat3::from(Nine { eight: eights[lane], ninth: ninths[lane] });
                 plain += crate::sums::inner(got, t);
                 // Where curvature is a millionth of the size of T, rounding of T moves the rotation by a billionth.
                 let off = (turns[lane].dot(expected).abs() - 1.0).abs();

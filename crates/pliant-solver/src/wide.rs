@@ -54,6 +54,7 @@ pub(crate) trait Wide: Simd {
 
     fn eight(self, numbers: [f64; 8]) -> Self::Eight;
     fn array8(self, eight: Self::Eight) -> [f64; 8];
+    fn splat8(self, number: f64) -> Self::Eight;
     fn add8(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
     fn sub8(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
     fn mul8(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
@@ -125,6 +126,11 @@ impl Wide for Scalar {
     #[inline(always)]
     fn array8(self, eight: [f64; 8]) -> [f64; 8] {
         eight
+    }
+
+    #[inline(always)]
+    fn splat8(self, number: f64) -> [f64; 8] {
+        [number; 8]
     }
 
     #[inline(always)]
@@ -230,6 +236,11 @@ mod x86 {
         }
 
         #[inline(always)]
+        fn splat8(self, number: f64) -> [__m256d; 2] {
+            [self.splat4(number); 2]
+        }
+
+        #[inline(always)]
         fn add8(self, a: [__m256d; 2], b: [__m256d; 2]) -> [__m256d; 2] {
             [self.add4(a[0], b[0]), self.add4(a[1], b[1])]
         }
@@ -284,6 +295,11 @@ mod x86 {
         }
 
         #[inline(always)]
+        fn splat8(self, number: f64) -> __m512d {
+            self.avx512f._mm512_set1_pd(number)
+        }
+
+        #[inline(always)]
         fn add8(self, a: __m512d, b: __m512d) -> __m512d {
             self.avx512f._mm512_add_pd(a, b)
         }
@@ -334,7 +350,7 @@ mod tests {
     struct Everything;
 
     impl Kernel for Everything {
-        type Output = ([[f64; 4]; 7], [[f64; 8]; 7]);
+        type Output = ([[f64; 4]; 7], [[f64; 8]; 8]);
 
         #[inline(always)]
         fn run<W: Wide>(self, wide: W) -> Self::Output {
@@ -344,8 +360,9 @@ mod tests {
             let [x, y, z, _] = wide.array4(wide.folded(d, b));
             let sign = wide.xor4(a, wide.four([-0.0, 0.0, -0.0, 0.0]));
             let fours = [wide.add4(a, b), wide.sub4(a, b), wide.mul4(a, b), wide.fma4(a, b, c), sign, c];
-            let eights = [wide.add8(d, e), wide.sub8(d, e), wide.mul8(d, e), wide.fma8(d, e, d), wide.rows(b)];
-            let (mut four, mut eight) = ([[x, y, z, 0.0]; 7], [wide.array8(wide.columns(b)); 7]);
+            let eights =
+                [wide.add8(d, e), wide.sub8(d, e), wide.mul8(d, e), wide.fma8(d, e, d), wide.rows(b), wide.splat8(3.0)];
+            let (mut four, mut eight) = ([[x, y, z, 0.0]; 7], [wide.array8(wide.columns(b)); 8]);
             for (out, value) in four.iter_mut().zip(fours) {
                 *out = wide.array4(value);
             }
