@@ -20,7 +20,7 @@ use crate::wide::{Kernel, Wide, dispatch};
 /// p' and R of every vertex, internal numbering.
 pub(crate) struct Pose {
     pub(crate) positions: Vec<DVec3>,
-    /// R_k as matrices, kept equal to `turns`.
+    /// R_k as matrices, kept equal to `turns`; after the last there are zeros.
     rotations: Nines,
     /// R_k as unit quaternions.
     pub(crate) turns: Vec<DQuat>,
@@ -44,7 +44,7 @@ impl Pose {
     pub(crate) fn at_rest(rest: &[DVec3]) -> Pose {
         let n = rest.len();
         let mut pose = Pose { positions: rest.to_vec(), rotations: Nines::default(), turns: vec![DQuat::IDENTITY; n] };
-        pose.rotations.resize(n);
+        pose.rotations.resize(n + 1);
         pose.set_turns(|_| DQuat::IDENTITY);
         pose
     }
@@ -76,6 +76,8 @@ pub(crate) struct Workspace {
     pulls: Vec<Quad>,
     /// P; empty with r = 1 everywhere.
     prefix: Nines,
+    /// Whether any vertex has r = 1.
+    has_stars: bool,
     /// First slot of every block.
     slot_bounds: Vec<u32>,
     /// Right-hand side and solution of the system.
@@ -99,6 +101,7 @@ impl Workspace {
         Workspace {
             pulls: Vec::new(),
             prefix: Nines::default(),
+            has_stars: true,
             slot_bounds: layout.slot_bounds(),
             rhs: vec![Quad::ZERO; n],
             rest_squares: vec![0.0; layout.n_blocks()],
@@ -116,6 +119,7 @@ impl Workspace {
         let has_runs = rings.neighborhoods.has_runs();
         self.prefix.resize(if has_runs { layout.n_edges() + layout.n_blocks() } else { 0 });
         self.pulls.resize(if has_runs { layout.n_edges() } else { 0 }, Quad::ZERO);
+        self.has_stars = rings.neighborhoods.r.contains(&1);
         self.terms.resize(rings.moments.len(), [0.0; 2]);
         for &block in touched {
             let edges = layout.blocks[block] as usize..layout.blocks[block + 1] as usize;
@@ -146,13 +150,13 @@ impl Workspace {
 
     /// b − A p' into `rhs`, which is minus half the gradient of the energy; 0 at fixed vertices.
     pub(crate) fn gradient(&mut self, layout: &Layout, rings: &Rings, is_fixed: &[bool], pose: &Pose) {
-        let Workspace { pulls, prefix, rhs, .. } = self;
+        let Workspace { pulls, prefix, rhs, has_stars, .. } = self;
         let now = Now { layout, positions: Flat::new(&pose.positions) };
         let rotations = pose.rotations.as_slices();
         if prefix.is_empty() {
             vertex_pulls(is_fixed, StarPull { now, rotations }, rhs);
         } else {
-            let r = &rings.neighborhoods.r[..];
+            let r = Some(&rings.neighborhoods.r[..]).filter(|_| *has_stars);
             edge_pulls((&rings.stiffness, r), now, (&rings.transpose, rotations), pulls);
             vertex_pulls(is_fixed, GatheredPull { layout, pulls }, rhs);
         }
@@ -169,7 +173,7 @@ impl Workspace {
         }
         let n = turns.len();
         let prefix = prefix.as_slices();
-        let out = (&mut turns[..], &mut rotations.eights[..], &mut rotations.ninths[..]);
+        let out = (&mut turns[..], &mut rotations.eights[..n], &mut rotations.ninths[..n]);
         chunks_with(n, out, parts, |first, (turns, eights, ninths)| {
             dispatch(Turn { rings, now, prefix, ties, first, turns, eights, ninths })
         });

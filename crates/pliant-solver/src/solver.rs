@@ -16,6 +16,10 @@ use crate::rings::Rings;
 use crate::rotations::Ties;
 use crate::{LooseComponents, Neighborhoods, Rigidity, SolveError, Start, VertexId, Weights};
 
+/// From this share of the blocks of edges on, the whole matrix is assembled anew: sums at vertices are then asked for by
+/// each of their edges, six times.
+const MANY_BLOCKS: usize = 6;
+
 /// How an iteration uses what the ones before have taught. E never rises with either.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Minimizer {
@@ -157,7 +161,7 @@ impl Solver {
         }
         let touched = self.rings.repaint(&self.analysis, rigidity)?;
         if !touched.is_empty() {
-            let values = self.assemble(&self.rings.stiffness, &self.held.is_fixed);
+            let values = self.reassemble(&touched);
             if let Err(error) = self.factor(values) {
                 // The sizes from before were there, so they fit.
                 self.rings.repaint(&self.analysis, &self.rigidity)?;
@@ -248,6 +252,10 @@ impl Solver {
     /// Held vertices go exactly to their targets and the free ones to where the energy is least for the current
     /// rotations (3.2.1), or under [`Minimizer::Lbfgs`] to where it is thought to be least with the best rotations.
     pub fn global_step(&mut self) {
+        on_pool(self.pose.positions.len(), || self.move_all());
+    }
+
+    fn move_all(&mut self) {
         let layout = &self.analysis.layout;
         self.held.place(&layout.rest, &mut self.pose.positions);
         if self.from_rest && self.iteration == 0 {
@@ -293,7 +301,7 @@ impl Solver {
     /// The best rotations for the current positions (3.2.2), and the energy. Under [`Minimizer::Lbfgs`] the step before is
     /// shortened, should the energy demand it.
     pub fn local_step(&mut self) -> StepReport {
-        let LocalOutcome { mut energy, noise } = self.turn_all();
+        let LocalOutcome { mut energy, noise } = on_pool(self.pose.positions.len(), || self.turn_all());
         if energy.abs() <= noise.floor() {
             energy = 0.0;
         }
@@ -394,6 +402,28 @@ impl Solver {
         }
         for i in (0..layout.n_vertices()).filter(|&i| is_fixed[i]) {
             values[pattern.diagonal(i)] = 1.0;
+        }
+        values
+    }
+
+    /// The matrix where only the stiffness of edges of these blocks has changed. The same bits as from
+    /// [`Solver::assemble`], since spokes ascend by edge.
+    fn reassemble(&self, blocks: &[usize]) -> Vec<f64> {
+        let Analysis { layout, pattern, slots, .. } = &*self.analysis;
+        if blocks.len() > layout.n_blocks() / MANY_BLOCKS {
+            return self.assemble(&self.rings.stiffness, &self.held.is_fixed);
+        }
+        let (stiffness, is_fixed) = (&self.rings.stiffness, &self.held.is_fixed);
+        let mut values = self.values.clone();
+        for e in blocks.iter().flat_map(|&block| layout.blocks[block] as usize..layout.blocks[block + 1] as usize) {
+            let ends = layout.edges[e].map(|end| end as usize);
+            if ends.iter().all(|&end| !is_fixed[end]) {
+                values[slots[e] as usize] = -stiffness[e];
+            }
+            for end in ends.into_iter().filter(|&end| !is_fixed[end]) {
+                values[pattern.diagonal(end)] =
+                    layout.spokes(end).iter().fold(0.0, |sum, spoke| sum + stiffness[spoke.edge as usize]);
+            }
         }
         values
     }
