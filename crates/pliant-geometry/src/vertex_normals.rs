@@ -5,8 +5,8 @@ use crate::incidence::Incidence;
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-/// Vertices per task: small meshes are not worth waking other threads.
-const VERTICES_PER_TASK: usize = 2048;
+/// Vertices or triangles per task: small meshes are not worth waking other threads.
+const PER_TASK: usize = 2048;
 
 /// Area-weighted unit normals at the vertices. Keeps which triangles meet at a vertex, so that every vertex gathers its
 /// own sum: parallel, and the same bits for any number of threads.
@@ -25,9 +25,11 @@ impl VertexNormals {
     /// area meets, the normal is +y.
     pub fn compute(&self, positions: &[Vec3], triangles: &[[u32; 3]], out: &mut Vec<Vec3>) {
         out.resize(self.incidence.n_vertices(), Vec3::Y);
-        out.par_iter_mut().with_min_len(VERTICES_PER_TASK).enumerate().for_each(|(v, normal)| {
-            let around = self.incidence.around(v).iter().filter_map(|&t| triangles.get(t as usize));
-            let sum: DVec3 = around.filter_map(|&t| corners(positions, t)).map(doubled_area).sum();
+        // Each triangle once, and not again at each of its corners.
+        let areas = triangles.par_iter().with_min_len(PER_TASK);
+        let areas = areas.map(|&t| corners(positions, t).map_or(DVec3::ZERO, doubled_area)).collect::<Vec<_>>();
+        out.par_iter_mut().with_min_len(PER_TASK).enumerate().for_each(|(v, normal)| {
+            let sum: DVec3 = self.incidence.around(v).iter().filter_map(|&t| areas.get(t as usize)).sum();
             *normal = sum.try_normalize().map_or(Vec3::Y, |n| n.as_vec3());
         });
     }

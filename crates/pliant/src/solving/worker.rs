@@ -156,8 +156,6 @@ fn failure(panic: &(dyn std::any::Any + Send)) -> SolveState {
 
 #[cfg(test)]
 mod tests {
-    use std::sync::Mutex;
-
     use glam::DVec3;
     use pliant_meshfile::MeshFile;
     use pliant_solver::VertexId;
@@ -253,13 +251,12 @@ mod tests {
     fn progress_is_told_in_ascending_order_and_ends_with_a_surface() {
         let mut document = sheet(30);
         document.apply(Command::FillAll(4)).expect("a good size");
-        let told = Mutex::new(Vec::new());
+        let mut told = Vec::new();
         let mut engine = Engine::new(&wish(&document));
         let outcome = engine.adopt(wish(&document), &mut |progress| {
-            told.lock().expect("no one panicked").push(progress);
+            told.push(progress);
             ControlFlow::Continue(())
         });
-        let told = told.into_inner().expect("no one panicked");
         assert!(told.is_sorted() && told.last() == Some(&1.0), "{told:?}");
         assert!(outcome.is_continue() && engine.report().state == SolveState::Settled);
     }
@@ -278,7 +275,7 @@ mod tests {
         let before = engine.as_mut().expect("new").report();
         document.apply(Command::FillAll(3)).expect("a good size");
         assert!(turn(&mut engine, wish(&document), &inbox).0.is_continue());
-        let mut engine = engine.expect("kept");
+        let engine = engine.expect("kept");
         assert!(engine.is_busy(), "other sizes are another energy");
         assert_eq!(engine.positions(), before.pose.map(|pose| pose.positions.to_vec()));
     }
