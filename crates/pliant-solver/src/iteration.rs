@@ -20,7 +20,7 @@ use crate::wide::{Kernel, Wide, dispatch};
 /// p' and R of every vertex, internal numbering.
 pub(crate) struct Pose {
     pub(crate) positions: Vec<DVec3>,
-    /// R_k as matrices, kept equal to `turns`.
+    /// R_k as matrices, kept equal to `turns`; after the last there are zeros.
     rotations: Nines,
     /// R_k as unit quaternions.
     pub(crate) turns: Vec<DQuat>,
@@ -44,7 +44,7 @@ impl Pose {
     pub(crate) fn at_rest(rest: &[DVec3]) -> Pose {
         let n = rest.len();
         let mut pose = Pose { positions: rest.to_vec(), rotations: Nines::default(), turns: vec![DQuat::IDENTITY; n] };
-        pose.rotations.resize(n);
+        pose.rotations.resize(n + 1);
         pose.set_turns(|_| DQuat::IDENTITY);
         pose
     }
@@ -169,7 +169,7 @@ impl Workspace {
         }
         let n = turns.len();
         let prefix = prefix.as_slices();
-        let out = (&mut turns[..], &mut rotations.eights[..], &mut rotations.ninths[..]);
+        let out = (&mut turns[..], &mut rotations.eights[..n], &mut rotations.ninths[..n]);
         chunks_with(n, out, parts, |first, (turns, eights, ninths)| {
             dispatch(Turn { rings, now, prefix, ties, first, turns, eights, ninths })
         });

@@ -1,6 +1,9 @@
 //! The neighborhoods of a solver with all that depends on them alone, and what painting other sizes changes of it.
 
+use std::ops::Range;
+
 use glam::DMat3;
+use rayon::prelude::*;
 
 use crate::analysis::Layout;
 use crate::energy::FEW_EDGES;
@@ -43,7 +46,7 @@ impl Rings {
             has_negative: false,
             moments: Vec::new(),
         };
-        (0..layout.n_blocks()).for_each(|block| rings.recount(layout, block));
+        rings.recount(layout, &Vec::from_iter(0..layout.n_blocks()));
         rings.total();
         if rings.needs_moments() {
             rings.moments = moments(layout, &rings.neighborhoods);
@@ -77,7 +80,7 @@ impl Rings {
             self.transpose = Transpose::new(layout, &self.neighborhoods);
         }
         let touched: Vec<usize> = (0..layout.n_blocks()).filter(|&block| is_touched[block]).collect();
-        touched.iter().for_each(|&block| self.recount(layout, block));
+        self.recount(layout, &touched);
         self.total();
         if !self.needs_moments() {
             self.moments = Vec::new();
@@ -89,14 +92,22 @@ impl Rings {
         Ok(touched)
     }
 
-    /// d_e of a block.
-    fn recount(&mut self, layout: &Layout, block: usize) {
+    /// d_e of some blocks.
+    fn recount(&mut self, layout: &Layout, blocks: &[usize]) {
         let Rings { neighborhoods, transpose, counts, total_count, stiffness, .. } = self;
-        for (e, by_runs) in (layout.blocks[block] as usize..).zip(transpose.counts(layout, block)) {
-            let own = layout.edges[e].iter().filter(|&&end| neighborhoods.r[end as usize] == 1).count() as u32;
-            let before = std::mem::replace(&mut counts[e], by_runs + own);
-            *total_count = *total_count + u64::from(counts[e]) - u64::from(before);
-            stiffness[e] = f64::from(counts[e]) * layout.weight[e];
+        let count = |&block: &usize| {
+            let edges = layout.blocks[block] as usize..layout.blocks[block + 1] as usize;
+            let by_runs = edges.clone().zip(transpose.counts(layout, block));
+            let own = |e: usize| layout.edges[e].iter().filter(|&&end| neighborhoods.r[end as usize] == 1).count();
+            (edges, by_runs.map(|(e, by_runs)| by_runs + own(e) as u32).collect())
+        };
+        let fresh: Vec<(Range<usize>, Vec<u32>)> = blocks.par_iter().map(count).collect();
+        for (edges, fresh) in fresh {
+            for (e, fresh) in edges.zip(fresh) {
+                let before = std::mem::replace(&mut counts[e], fresh);
+                *total_count = *total_count + u64::from(fresh) - u64::from(before);
+                stiffness[e] = f64::from(fresh) * layout.weight[e];
+            }
         }
     }
 

@@ -16,6 +16,10 @@ use crate::rings::Rings;
 use crate::rotations::Ties;
 use crate::{LooseComponents, Neighborhoods, Rigidity, SolveError, Start, VertexId, Weights};
 
+/// From this share of the blocks of edges on, the whole matrix is assembled anew: sums at vertices are then asked for by
+/// each of their edges, six times.
+const MANY_BLOCKS: usize = 6;
+
 /// How an iteration uses what the ones before have taught. E never rises with either.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Minimizer {
@@ -157,7 +161,7 @@ impl Solver {
         }
         let touched = self.rings.repaint(&self.analysis, rigidity)?;
         if !touched.is_empty() {
-            let values = self.assemble(&self.rings.stiffness, &self.held.is_fixed);
+            let values = self.reassemble(&touched);
             if let Err(error) = self.factor(values) {
                 // The sizes from before were there, so they fit.
                 self.rings.repaint(&self.analysis, &self.rigidity)?;
@@ -394,6 +398,28 @@ impl Solver {
         }
         for i in (0..layout.n_vertices()).filter(|&i| is_fixed[i]) {
             values[pattern.diagonal(i)] = 1.0;
+        }
+        values
+    }
+
+    /// The matrix where only the stiffness of edges of these blocks has changed. The same bits as from
+    /// [`Solver::assemble`], since spokes ascend by edge.
+    fn reassemble(&self, blocks: &[usize]) -> Vec<f64> {
+        let Analysis { layout, pattern, slots, .. } = &*self.analysis;
+        if blocks.len() > layout.n_blocks() / MANY_BLOCKS {
+            return self.assemble(&self.rings.stiffness, &self.held.is_fixed);
+        }
+        let (stiffness, is_fixed) = (&self.rings.stiffness, &self.held.is_fixed);
+        let mut values = self.values.clone();
+        for e in blocks.iter().flat_map(|&block| layout.blocks[block] as usize..layout.blocks[block + 1] as usize) {
+            let ends = layout.edges[e].map(|end| end as usize);
+            if ends.iter().all(|&end| !is_fixed[end]) {
+                values[slots[e] as usize] = -stiffness[e];
+            }
+            for end in ends.into_iter().filter(|&end| !is_fixed[end]) {
+                values[pattern.diagonal(end)] =
+                    layout.spokes(end).iter().fold(0.0, |sum, spoke| sum + stiffness[spoke.edge as usize]);
+            }
         }
         values
     }

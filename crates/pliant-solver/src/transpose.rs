@@ -5,10 +5,10 @@
 //! threads writing to the same place. What would be subtracted after the last edge of a block is left out.
 //!
 //! Lists of different lengths cost more in mispredicted branches than in sums. So those of a slot are cut into *steps*
-//! of four entries, filled up with ones that count nothing, and a block is one plain loop over steps. Every slot has a
-//! step.
+//! of four entries of one sign, filled up with a matrix of zeros, and a block is one plain loop over steps. Every slot
+//! has a step.
 //!
-//! Entries of a slot ascend by vertex, whatever the order in which they came to be: sums over them have the same bits
+//! Entries of a slot, first those that are added, ascend by vertex, whatever the order in which they came to be: sums over them have the same bits
 //! after a repainting as after a new build. They lie in chunks of slots, of which a repainting writes only those anew
 //! that it touches.
 
@@ -24,12 +24,12 @@ use crate::wide::Wide;
 
 /// Set in an entry that is subtracted.
 const MINUS: u32 = 1 << 31;
-/// An entry that counts nothing. The vertices of a mesh that fits memory are fewer.
-const NOBODY: u32 = 1 << 30;
-/// How the two highest bits of an entry count.
-const SIGNS: [f64; 4] = [1.0, 0.0, -1.0, 0.0];
+/// Set in the place of a step that is subtracted.
+const MINUS_STEP: u8 = 1 << 7;
+/// How steps count that are added, and that are subtracted.
+const SIGNS: [f64; 2] = [1.0, -1.0];
 
-/// Entries that are added at once. With eight, more of them are empty than the loop gains.
+/// Entries that are added at once. At r = 10 an edge has some 13 of each sign, so that one in ten is empty.
 const STEP: usize = 4;
 
 /// Slots per chunk: as many as a block has, some hundred kilobytes at r = 10.
@@ -48,10 +48,12 @@ pub(crate) struct Transpose {
 struct Chunk {
     /// Steps of the i-th slot: `steps[offsets[i]..offsets[i + 1]]`.
     offsets: Vec<u32>,
-    /// Vertex, with [`MINUS`] or without, ascending by vertex at each slot, then [`NOBODY`].
+    /// Vertices, ascending at each slot and sign, then `nobody`.
     steps: Vec<[u32; STEP]>,
-    /// The slot of each step, in its group.
+    /// The slot of each step in its group, with [`MINUS_STEP`] or without.
     slot_of: Vec<u8>,
+    /// The number of vertices.
+    nobody: u32,
 }
 
 /// Q of the slots of a group.
@@ -84,7 +86,7 @@ impl Transpose {
                         (0..batches[b].offsets.len() - 1).map(|i| ((b * SOURCES + i) as u32, batches[b].runs(i)));
                     members.for_each(|(k, runs)| collect_ends(k, runs, c, ends));
                 }
-                Chunk::of_ends(c, ends, &closing)
+                Chunk::of_ends(c, ends, &closing, layout.n_vertices() as u32)
             })
             .collect();
         Transpose { chunks }
@@ -95,12 +97,14 @@ impl Transpose {
         self.chunks.is_empty()
     }
 
-    /// The ends at a slot, each a vertex, with [`MINUS`] or without, ascending by vertex.
+    /// The ends at a slot, each a vertex, with [`MINUS`] or without, ascending.
+    #[cfg(test)]
     fn entries(&self, slot: usize) -> impl Iterator<Item = u32> {
         self.chunks[slot / SLOTS].entries(slot % SLOTS)
     }
 
-    /// Q of some slots of one group, slot s at place s % [`GROUP`], continuing the `running` sum.
+    /// Q of some slots of one group, slot s at place s % [`GROUP`], continuing the `running` sum. After the last of the
+    /// `rotations` there are zeros.
     #[inline(always)]
     pub(crate) fn sum<W: Wide>(
         &self,
@@ -116,19 +120,13 @@ impl Transpose {
         let NinesRef { eights, ninths } = rotations.of_one_length();
         let (mut eight, mut ninth) = *running;
         for (step, &slot) in chunk.steps[steps.clone()].iter().zip(&chunk.slot_of[steps]) {
-            let (mut one, mut one_ninth) = (wide.eight([0.0; 8]), 0.0);
-            let (mut other, mut other_ninth) = (wide.eight([0.0; 8]), 0.0);
-            for &[a, b] in step.as_chunks().0 {
-                let (sign, k) = (SIGNS[(a >> 30) as usize], (a & !(MINUS | NOBODY)) as usize);
-                one = wide.fma8(wide.eight(eights[k].0), wide.splat8(sign), one);
-                one_ninth += ninths[k] * sign;
-                let (sign, k) = (SIGNS[(b >> 30) as usize], (b & !(MINUS | NOBODY)) as usize);
-                other = wide.fma8(wide.eight(eights[k].0), wide.splat8(sign), other);
-                other_ninth += ninths[k] * sign;
-            }
-            eight = wide.add8(eight, wide.add8(one, other));
-            ninth += one_ninth + other_ninth;
-            let place = slot as usize % GROUP;
+            let [a, b, c, d] = step.map(|k| k as usize);
+            let sign = SIGNS[usize::from(slot / MINUS_STEP)];
+            let one = wide.add8(wide.eight(eights[a].0), wide.eight(eights[b].0));
+            let other = wide.add8(wide.eight(eights[c].0), wide.eight(eights[d].0));
+            eight = wide.fma8(wide.add8(one, other), wide.splat8(sign), eight);
+            ninth += ((ninths[a] + ninths[b]) + (ninths[c] + ninths[d])) * sign;
+            let place = usize::from(slot) % GROUP;
             (sums.eights[place], sums.ninths[place]) = (Eight(wide.array8(eight)), ninth);
         }
         *running = (eight, ninth);
@@ -139,7 +137,8 @@ impl Transpose {
         let mut running = 0i32;
         (layout.blocks[block] as usize..layout.blocks[block + 1] as usize).map(move |e| {
             if !self.is_empty() {
-                running += self.entries(e + block).map(|entry| if entry & MINUS == 0 { 1 } else { -1 }).sum::<i32>();
+                let slot = e + block;
+                running += self.chunks[slot / SLOTS].growth(slot % SLOTS);
             }
             running as u32
         })
@@ -162,7 +161,7 @@ impl Transpose {
                 }
             }
         }
-        ends.sort_unstable_by_key(|&(slot, entry)| (slot, entry & !MINUS));
+        ends.sort_unstable();
         ends.iter().for_each(|&(slot, _)| is_touched[slot as usize / SLOTS] = true);
         self.chunks.par_iter_mut().enumerate().filter(|(c, _)| is_touched[*c]).for_each(|(c, chunk)| {
             let first = ends.partition_point(|&(slot, _)| (slot as usize) < c * SLOTS);
@@ -177,25 +176,48 @@ impl Transpose {
 
 impl Chunk {
     fn entries(&self, i: usize) -> impl Iterator<Item = u32> {
-        let steps = &self.steps[self.offsets[i] as usize..self.offsets[i + 1] as usize];
-        steps.as_flattened().iter().copied().filter(|&entry| entry != NOBODY)
+        let steps = self.offsets[i] as usize..self.offsets[i + 1] as usize;
+        self.steps[steps.clone()].iter().zip(&self.slot_of[steps]).flat_map(|(step, slot)| {
+            let sign = u32::from(slot & MINUS_STEP) << 24;
+            step.iter().filter(|&&k| k != self.nobody).map(move |&k| k | sign)
+        })
     }
 
-    /// Nobody at any slot, but room for so many.
-    fn with_room(counts: &[u32]) -> Chunk {
-        let mut offsets = vec![0u32];
+    /// By how much the number of neighborhoods grows at the i-th slot.
+    fn growth(&self, i: usize) -> i32 {
+        let steps = self.offsets[i] as usize..self.offsets[i + 1] as usize;
+        let of_steps = self.steps[steps.clone()].iter().zip(&self.slot_of[steps]).map(|(step, slot)| {
+            let n: i32 = step.iter().map(|&k| i32::from(k != self.nobody)).sum();
+            if slot & MINUS_STEP == 0 { n } else { -n }
+        });
+        of_steps.sum()
+    }
+
+    /// Nobody at any slot, but room for so many of each sign.
+    fn with_room(counts: &[[u32; 2]], nobody: u32) -> Chunk {
+        let mut offsets = vec![0];
         let mut slot_of = Vec::new();
-        for (i, count) in counts.iter().enumerate() {
-            let n = count.div_ceil(STEP as u32).max(1);
-            offsets.push(offsets[i] + n);
-            slot_of.extend((0..n).map(|_| (i % GROUP) as u8));
+        for (i, [plus, minus]) in counts.iter().enumerate() {
+            let n_minus = minus.div_ceil(STEP as u32);
+            let n_plus = plus.div_ceil(STEP as u32).max(u32::from(n_minus == 0));
+            let slot = (i % GROUP) as u8;
+            slot_of.extend((0..n_plus).map(|_| slot));
+            slot_of.extend((0..n_minus).map(|_| slot | MINUS_STEP));
+            offsets.push(slot_of.len() as u32);
         }
         slot_of.shrink_to_fit();
-        Chunk { steps: vec![[NOBODY; STEP]; slot_of.len()], offsets, slot_of }
+        Chunk { steps: vec![[nobody; STEP]; slot_of.len()], offsets, slot_of, nobody }
+    }
+
+    /// The places for entries that are added and that are subtracted at the i-th slot.
+    fn places(&self, i: usize) -> [usize; 2] {
+        let steps = self.offsets[i] as usize..self.offsets[i + 1] as usize;
+        let n_plus = self.slot_of[steps.clone()].iter().take_while(|&&slot| slot & MINUS_STEP == 0).count();
+        [steps.start, steps.start + n_plus].map(|step| step * STEP)
     }
 
     /// Chunk `c` from its ends (slot, entry), those of one slot ascending by vertex.
-    fn of_ends(c: usize, ends: &[(u32, u32)], closing: &[u32]) -> Chunk {
+    fn of_ends(c: usize, ends: &[(u32, u32)], closing: &[u32], nobody: u32) -> Chunk {
         let mut is_kept = [true; SLOTS];
         let first = closing.partition_point(|&slot| (slot as usize) < c * SLOTS);
         closing[first..]
@@ -203,49 +225,48 @@ impl Chunk {
             .map_while(|&slot| (slot as usize).checked_sub(c * SLOTS).filter(|&i| i < SLOTS))
             .for_each(|i| is_kept[i] = false);
         let place = |slot: u32| slot as usize % SLOTS;
-        let mut counts = vec![0u32; SLOTS];
-        for &(slot, _) in ends {
-            counts[place(slot)] += u32::from(is_kept[place(slot)]);
+        let mut counts = vec![[0; 2]; SLOTS];
+        for &(slot, entry) in ends {
+            counts[place(slot)][(entry >> 31) as usize] += u32::from(is_kept[place(slot)]);
         }
-        let mut chunk = Chunk::with_room(&counts);
-        let mut next: Vec<usize> = chunk.offsets.iter().map(|&step| step as usize * STEP).collect();
+        let mut chunk = Chunk::with_room(&counts, nobody);
+        let mut next: Vec<[usize; 2]> = (0..SLOTS).map(|i| chunk.places(i)).collect();
         let entries = chunk.steps.as_flattened_mut();
         for &(slot, entry) in ends.iter().filter(|&&(slot, _)| is_kept[place(slot)]) {
-            let at = &mut next[place(slot)];
-            entries[*at] = entry;
+            let at = &mut next[place(slot)][(entry >> 31) as usize];
+            entries[*at] = entry & !MINUS;
             *at += 1;
         }
         chunk
     }
 
-    /// Chunk `c` without the changed vertices, but with their new ends, sorted by slot and vertex.
+    /// Chunk `c` without the changed vertices, but with their new ends, sorted by slot and entry.
     fn merged(&self, c: usize, ends: &[(u32, u32)], is_changed: &[bool]) -> Chunk {
-        let mut counts = Vec::with_capacity(SLOTS);
+        let mut counts = vec![[0; 2]; SLOTS];
         let mut entries = Vec::with_capacity(self.steps.len() * STEP + ends.len());
         let mut fresh = ends.iter().peekable();
-        for i in 0..SLOTS {
+        for (i, counts) in counts.iter_mut().enumerate() {
             let (slot, before) = ((c * SLOTS + i) as u32, entries.len());
             for entry in self.entries(i) {
-                let k = entry & !MINUS;
-                while let Some(&(_, fresh)) = fresh.next_if(|&&(at, fresh)| at == slot && fresh & !MINUS < k) {
+                while let Some(&(_, fresh)) = fresh.next_if(|&&(at, fresh)| at == slot && fresh < entry) {
                     entries.push(fresh);
                 }
-                if !is_changed[k as usize] {
+                if !is_changed[(entry & !MINUS) as usize] {
                     entries.push(entry);
                 }
             }
             while let Some(&(_, fresh)) = fresh.next_if(|&&(at, _)| at == slot) {
                 entries.push(fresh);
             }
-            counts.push((entries.len() - before) as u32);
+            entries[before..].iter().for_each(|entry| counts[(entry >> 31) as usize] += 1);
         }
-        let mut chunk = Chunk::with_room(&counts);
-        let mut rest = &entries[..];
-        for (i, &count) in counts.iter().enumerate() {
-            let (mine, later) = rest.split_at(count as usize);
-            let first = chunk.offsets[i] as usize * STEP;
-            chunk.steps.as_flattened_mut()[first..first + mine.len()].copy_from_slice(mine);
-            rest = later;
+        let mut chunk = Chunk::with_room(&counts, self.nobody);
+        let mut rest = entries.iter().map(|entry| entry & !MINUS);
+        for (i, counts) in counts.iter().enumerate() {
+            for (first, &count) in chunk.places(i).into_iter().zip(counts) {
+                let places = &mut chunk.steps.as_flattened_mut()[first..first + count as usize];
+                places.iter_mut().zip(&mut rest).for_each(|(place, k)| *place = k);
+            }
         }
         chunk
     }
@@ -325,13 +346,13 @@ mod tests {
     }
 
     #[test]
-    fn entries_ascend_by_vertex_and_none_lies_behind_the_last_edge_of_a_block() {
+    fn entries_ascend_and_none_lies_behind_the_last_edge_of_a_block() {
         let analysis = Analysis::new(Arc::new(bumpy_sheet(43)), Weights::Uniform);
         let layout = &analysis.layout;
         let rigidity = mixed_rigidity(layout.n_vertices(), 9);
         let transpose = Transpose::new(layout, &Neighborhoods::new(&analysis, &rigidity).expect("one size per vertex"));
         for slot in 0..layout.n_edges() + layout.n_blocks() {
-            assert!(transpose.entries(slot).is_sorted_by(|a, b| a & !MINUS < b & !MINUS), "slot {slot}");
+            assert!(transpose.entries(slot).is_sorted_by(|a, b| a < b), "slot {slot}");
         }
         for slot in closing_slots(layout) {
             assert_eq!(transpose.entries(slot as usize).next(), None, "slot {slot}");
