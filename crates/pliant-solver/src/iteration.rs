@@ -76,6 +76,8 @@ pub(crate) struct Workspace {
     pulls: Vec<Quad>,
     /// P; empty with r = 1 everywhere.
     prefix: Nines,
+    /// Whether any vertex has r = 1.
+    has_stars: bool,
     /// First slot of every block.
     slot_bounds: Vec<u32>,
     /// Right-hand side and solution of the system.
@@ -99,6 +101,7 @@ impl Workspace {
         Workspace {
             pulls: Vec::new(),
             prefix: Nines::default(),
+            has_stars: true,
             slot_bounds: layout.slot_bounds(),
             rhs: vec![Quad::ZERO; n],
             rest_squares: vec![0.0; layout.n_blocks()],
@@ -116,6 +119,7 @@ impl Workspace {
         let has_runs = rings.neighborhoods.has_runs();
         self.prefix.resize(if has_runs { layout.n_edges() + layout.n_blocks() } else { 0 });
         self.pulls.resize(if has_runs { layout.n_edges() } else { 0 }, Quad::ZERO);
+        self.has_stars = rings.neighborhoods.r.contains(&1);
         self.terms.resize(rings.moments.len(), [0.0; 2]);
         for &block in touched {
             let edges = layout.blocks[block] as usize..layout.blocks[block + 1] as usize;
@@ -146,13 +150,13 @@ impl Workspace {
 
     /// b − A p' into `rhs`, which is minus half the gradient of the energy; 0 at fixed vertices.
     pub(crate) fn gradient(&mut self, layout: &Layout, rings: &Rings, is_fixed: &[bool], pose: &Pose) {
-        let Workspace { pulls, prefix, rhs, .. } = self;
+        let Workspace { pulls, prefix, rhs, has_stars, .. } = self;
         let now = Now { layout, positions: Flat::new(&pose.positions) };
         let rotations = pose.rotations.as_slices();
         if prefix.is_empty() {
             vertex_pulls(is_fixed, StarPull { now, rotations }, rhs);
         } else {
-            let r = &rings.neighborhoods.r[..];
+            let r = Some(&rings.neighborhoods.r[..]).filter(|_| *has_stars);
             edge_pulls((&rings.stiffness, r), now, (&rings.transpose, rotations), pulls);
             vertex_pulls(is_fixed, GatheredPull { layout, pulls }, rhs);
         }

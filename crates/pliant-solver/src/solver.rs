@@ -252,6 +252,10 @@ impl Solver {
     /// Held vertices go exactly to their targets and the free ones to where the energy is least for the current
     /// rotations (3.2.1), or under [`Minimizer::Lbfgs`] to where it is thought to be least with the best rotations.
     pub fn global_step(&mut self) {
+        on_pool(self.pose.positions.len(), || self.move_all());
+    }
+
+    fn move_all(&mut self) {
         let layout = &self.analysis.layout;
         self.held.place(&layout.rest, &mut self.pose.positions);
         if self.from_rest && self.iteration == 0 {
@@ -297,7 +301,7 @@ impl Solver {
     /// The best rotations for the current positions (3.2.2), and the energy. Under [`Minimizer::Lbfgs`] the step before is
     /// shortened, should the energy demand it.
     pub fn local_step(&mut self) -> StepReport {
-        let LocalOutcome { mut energy, noise } = self.turn_all();
+        let LocalOutcome { mut energy, noise } = on_pool(self.pose.positions.len(), || self.turn_all());
         if energy.abs() <= noise.floor() {
             energy = 0.0;
         }

@@ -171,9 +171,9 @@ impl Kernel for RunSum<'_> {
     }
 }
 
-/// f_e of every edge.
+/// f_e of every edge. `r` may be left out where all are larger than 1.
 pub(crate) fn edge_pulls(
-    (stiffness, r): (&[f64], &[u16]),
+    (stiffness, r): (&[f64], Option<&[u16]>),
     now: Now<'_>,
     (transpose, rotations): (&Transpose, NinesRef<'_>),
     pulls: &mut [Quad],
@@ -186,7 +186,7 @@ pub(crate) fn edge_pulls(
 /// f_e of one block.
 struct PullBlock<'a> {
     stiffness: &'a [f64],
-    r: &'a [u16],
+    r: Option<&'a [u16]>,
     now: Now<'a>,
     transpose: &'a Transpose,
     rotations: NinesRef<'a>,
@@ -226,9 +226,8 @@ impl PullBlock<'_> {
         let sums = q.eights[places.clone()].iter().zip(&q.ninths[places]);
         for (((e, pull), (&Eight(eight), &ninth)), (&Quad(rest), &s)) in edges.zip(pulls).zip(sums).zip(constants) {
             let (mut eight, mut ninth) = (wide.eight(eight), ninth);
-            for end in layout.edges[e] {
-                let end = end as usize;
-                if r[end] == 1 {
+            if let Some(r) = r {
+                for end in layout.edges[e].into_iter().map(|end| end as usize).filter(|&end| r[end] == 1) {
                     let own = rotations.get(end);
                     (eight, ninth) = (wide.add8(eight, wide.eight(own.eight.0)), ninth + own.ninth);
                 }
