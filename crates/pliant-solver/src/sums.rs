@@ -226,10 +226,14 @@ impl PullBlock<'_> {
         let sums = q.eights[places.clone()].iter().zip(&q.ninths[places]);
         for (((e, pull), (&Eight(eight), &ninth)), (&Quad(rest), &s)) in edges.zip(pulls).zip(sums).zip(constants) {
             let (mut eight, mut ninth) = (wide.eight(eight), ninth);
-            if let Some(r) = r {
-                for end in layout.edges[e].into_iter().map(|end| end as usize).filter(|&end| r[end] == 1) {
-                    let own = rotations.get(end);
-                    (eight, ninth) = (wide.add8(eight, wide.eight(own.eight.0)), ninth + own.ninth);
+            if let Some(r) = *r {
+                // Not an iterator with closures: it made the whole gradient 6 % slower.
+                for end in layout.edges[e] {
+                    let end = end as usize;
+                    if r[end] == 1 {
+                        let own = rotations.get(end);
+                        (eight, ninth) = (wide.add8(eight, wide.eight(own.eight.0)), ninth + own.ninth);
+                    }
                 }
             }
             let rest = wide.four(rest);

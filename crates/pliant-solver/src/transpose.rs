@@ -120,7 +120,8 @@ impl Transpose {
         let NinesRef { eights, ninths } = rotations.of_one_length();
         let (mut eight, mut ninth) = *running;
         for (step, &slot) in chunk.steps[steps.clone()].iter().zip(&chunk.slot_of[steps]) {
-            let [a, b, c, d] = step.map(|k| k as usize);
+            let &[a, b, c, d] = step;
+            let (a, b, c, d) = (a as usize, b as usize, c as usize, d as usize);
             let sign = SIGNS[usize::from(slot / MINUS_STEP)];
             let one = wide.add8(wide.eight(eights[a].0), wide.eight(eights[b].0));
             let other = wide.add8(wide.eight(eights[c].0), wide.eight(eights[d].0));
