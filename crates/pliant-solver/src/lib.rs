@@ -77,54 +77,34 @@
 //! depend on how many there are.
 
 mod analysis;
-mod edge_order;
-mod edge_set;
-mod energy;
 mod error;
 mod held;
-mod hilbert;
 mod ids;
-mod iteration;
-mod lanes;
+mod kernels;
 mod lbfgs;
 mod linear;
 #[cfg(feature = "measure")]
 #[doc(hidden)]
 pub mod measure;
 mod mesh;
-mod moments;
-mod neighborhoods;
-mod nines;
-mod parallel;
-mod progress;
-mod quad;
 mod rigid_fit;
 mod rigidity;
 mod rings;
-mod rotations;
-mod search;
 mod solver;
-mod stars;
 mod start;
-mod sums;
 #[cfg(test)]
 mod test_support;
 #[cfg(test)]
 mod tests;
-mod topology;
-mod transpose;
-mod turning;
-mod weights;
-mod wide;
 
 pub use analysis::Analysis;
+pub use analysis::topology::Defects;
+pub use analysis::weights::Weights;
 pub use error::{MeshError, RigidityError, SolveError};
 pub use held::LooseComponents;
 pub use ids::VertexId;
 pub use mesh::{LARGEST_COORDINATE, Mesh};
-pub use neighborhoods::Neighborhoods;
 pub use rigidity::Rigidity;
+pub use rings::neighborhoods::Neighborhoods;
 pub use solver::{Minimizer, Solver, StepReport};
 pub use start::Start;
-pub use topology::Defects;
-pub use weights::Weights;

@@ -1,7 +1,7 @@
 //! Single kernels of an iteration, for benchmarks: no part of the interface, and only there with the feature `measure`.
 
 use crate::Solver;
-use crate::rotations::Ties;
+use crate::kernels::rotations::Ties;
 
 /// A part of an iteration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

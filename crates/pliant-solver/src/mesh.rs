@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::topology::{Defects, HalfEdges, components, count_defects};
+use crate::analysis::topology::{Defects, HalfEdges, components, count_defects};
 use crate::{MeshError, VertexId};
 
 /// Coordinates beyond this would overflow when squared and summed.

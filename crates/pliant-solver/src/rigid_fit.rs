@@ -2,8 +2,8 @@
 
 use glam::{DMat3, DQuat, DVec3};
 
-use crate::rotations::{Ties, best_rotation};
-use crate::sums::outer;
+use crate::kernels::rotations::{Ties, best_rotation};
+use crate::kernels::sums::outer;
 
 /// x ↦ to + R (x − from).
 #[derive(Clone, Copy, Debug)]

@@ -5,15 +5,15 @@ use std::sync::Arc;
 use glam::{DMat3, DVec3};
 
 use crate::analysis::Analysis;
-use crate::energy::vertex_energies;
 use crate::held::Held;
-use crate::iteration::{LocalOutcome, Pose, Workspace};
+use crate::kernels::energy::vertex_energies;
+use crate::kernels::iteration::{LocalOutcome, Pose, Workspace};
+use crate::kernels::parallel::on_pool;
+use crate::kernels::rotations::Ties;
 use crate::lbfgs::{Lbfgs, Verdict};
 use crate::linear::{FactorError, System};
 use crate::mesh::is_usable;
-use crate::parallel::on_pool;
 use crate::rings::Rings;
-use crate::rotations::Ties;
 use crate::{LooseComponents, Neighborhoods, Rigidity, SolveError, Start, VertexId, Weights};
 
 /// From this share of the blocks of edges on, the whole matrix is assembled anew: sums at vertices are then asked for by

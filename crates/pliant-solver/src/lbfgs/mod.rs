@@ -34,8 +34,8 @@ use glam::DVec3;
 
 use self::history::{Direction, History, Pending, Products};
 use self::vectors::{Course, Partial, Record};
-use crate::parallel::{CHUNK, chunks};
-use crate::quad::Quad;
+use crate::kernels::parallel::{CHUNK, chunks};
+use crate::kernels::quad::Quad;
 
 /// The part of the decrease promised by the slope that is asked for (usual).
 const ENOUGH: f64 = 1e-4;

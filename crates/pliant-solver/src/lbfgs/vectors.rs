@@ -4,8 +4,8 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::history::{Direction, PAIRS, Products};
-use crate::parallel::{CHUNK, is_worth_sharing};
-use crate::quad::Quad;
+use crate::kernels::parallel::{CHUNK, is_worth_sharing};
+use crate::kernels::quad::Quad;
 
 /// What one vertex remembers: s and w of every slot, side by side. Half the digits are plenty for a direction, and
 /// memory is what these passes wait for.

@@ -67,7 +67,7 @@ impl Pattern {
 
     /// The product of the matrix with a vector.
     #[cfg(test)]
-    pub(super) fn times(&self, values: &[f64], x: &[crate::quad::Quad]) -> Vec<DVec3> {
+    pub(super) fn times(&self, values: &[f64], x: &[crate::kernels::quad::Quad]) -> Vec<DVec3> {
         let mut product = vec![DVec3::ZERO; x.len()];
         for j in 0..x.len() {
             let slots = self.columns[j] as usize..self.columns[j + 1] as usize;

@@ -4,8 +4,8 @@
 use super::factor::TaskFactor;
 use super::panels::{WIDTH, n_values, panels, triangle};
 use super::plan::{Plan, Task};
-use crate::quad::Quad;
-use crate::wide::{Kernel, Wide, dispatch};
+use crate::kernels::quad::Quad;
+use crate::kernels::wide::{Kernel, Wide, dispatch};
 
 /// Solves for the rows of all tasks: on entry, the right-hand side at the columns of each task (anything at their
 /// boundaries); on return, the solution in the same places.

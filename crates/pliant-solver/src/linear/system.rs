@@ -8,8 +8,8 @@ use super::factor::{TaskFactor, factor};
 use super::pattern::Pattern;
 use super::plan::Plan;
 use super::solve::solve;
-use crate::parallel::chunks;
-use crate::quad::Quad;
+use crate::kernels::parallel::chunks;
+use crate::kernels::quad::Quad;
 
 /// A raw pivot this much smaller than its diagonal entry is rounding, not definiteness: 1e4 times the unit roundoff.
 const SMALLEST_PIVOT: f64 = 1e-12;

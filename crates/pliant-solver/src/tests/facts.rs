@@ -2,9 +2,9 @@
 
 use glam::{DQuat, DVec3};
 
+use crate::analysis::topology::sides_of_faces;
+use crate::analysis::weights::edge_weights;
 use crate::test_support::{Random, arc, box_bar, bumpy_sheet, farthest, mixed_rigidity, plain_energy, solver};
-use crate::topology::sides_of_faces;
-use crate::weights::edge_weights;
 use crate::{Mesh, Rigidity, Solver, Start, VertexId, Weights};
 
 /// A sheet with mixed r, three patches held, pulled apart at random.

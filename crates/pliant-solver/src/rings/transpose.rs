@@ -17,10 +17,10 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use crate::analysis::Layout;
-use crate::neighborhoods::{Changes, Neighborhoods};
-use crate::nines::{Eight, NinesRef};
-use crate::search::{Batch, SOURCES};
-use crate::wide::Wide;
+use crate::kernels::nines::{Eight, NinesRef};
+use crate::kernels::wide::Wide;
+use crate::rings::neighborhoods::{Changes, Neighborhoods};
+use crate::rings::search::{Batch, SOURCES};
 
 /// Set in an entry that is subtracted.
 const MINUS: u32 = 1 << 31;
@@ -325,7 +325,7 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::neighborhoods::block_of_slot;
+    use crate::rings::neighborhoods::block_of_slot;
     use crate::test_support::{bumpy_sheet, mixed_rigidity};
     use crate::{Analysis, Weights};
 

@@ -3,17 +3,23 @@
 //! Vertices are renumbered along a Hilbert curve and edges along strips of faces, component by component, so that every
 //! later pass walks memory nearly in order. Callers never see this numbering: [`Solver`](crate::Solver) translates at its border.
 
+pub(crate) mod edge_order;
+pub(crate) mod hilbert;
+pub(crate) mod stars;
+pub(crate) mod topology;
+pub(crate) mod weights;
+
 use std::sync::Arc;
 
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::edge_order::edge_order;
-use crate::hilbert::Curve;
+use crate::analysis::edge_order::edge_order;
+use crate::analysis::hilbert::Curve;
+use crate::analysis::stars::Stars;
+use crate::analysis::topology::sides_of_faces;
+use crate::analysis::weights::edge_weights;
 use crate::linear::Pattern;
-use crate::stars::Stars;
-use crate::topology::sides_of_faces;
-use crate::weights::edge_weights;
 use crate::{Mesh, Weights};
 
 /// Edges per block of prefix sums. Short enough that a difference of two sums within a block keeps twelve digits of a
@@ -164,7 +170,7 @@ impl Layout {
         self.blocks.len() - 1
     }
 
-    /// First slot of every block, see [`neighborhoods`](crate::neighborhoods).
+    /// First slot of every block, see [`neighborhoods`](crate::rings::neighborhoods).
     pub(crate) fn slot_bounds(&self) -> Vec<u32> {
         self.blocks.iter().enumerate().map(|(block, &edge)| edge + block as u32).collect()
     }

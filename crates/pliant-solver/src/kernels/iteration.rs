@@ -3,19 +3,19 @@
 use glam::{DMat3, DQuat, DVec3};
 
 use crate::analysis::Layout;
-use crate::energy::{DIRECT_BELOW, Noise, component_frames, framed_terms, vertex_energies};
-use crate::linear::System;
-use crate::nines::{Eight, Nine, Nines, NinesRef};
-use crate::parallel::{CHUNK, chunks, chunks_with};
-use crate::quad::Quad;
-use crate::rings::Rings;
-use crate::rotations::Ties;
-use crate::stars::Flat;
-use crate::sums::{
+use crate::analysis::stars::Flat;
+use crate::kernels::energy::{DIRECT_BELOW, Noise, component_frames, framed_terms, vertex_energies};
+use crate::kernels::nines::{Eight, Nine, Nines, NinesRef};
+use crate::kernels::parallel::{CHUNK, chunks, chunks_with};
+use crate::kernels::quad::Quad;
+use crate::kernels::rotations::Ties;
+use crate::kernels::sums::{
     Computed, GatheredPull, Now, StarPull, edge_pulls, neighborhood_sum, prefix_sums, run_sum, vertex_pulls,
 };
-use crate::turning::{LOT, Lot};
-use crate::wide::{Kernel, Wide, dispatch};
+use crate::kernels::turning::{LOT, Lot};
+use crate::kernels::wide::{Kernel, Wide, dispatch};
+use crate::linear::System;
+use crate::rings::Rings;
 
 /// p' and R of every vertex, internal numbering.
 pub(crate) struct Pose {
@@ -313,8 +313,8 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::rotations::best_rotation;
-    use crate::sums::outer;
+    use crate::kernels::rotations::best_rotation;
+    use crate::kernels::sums::outer;
     use crate::test_support::{Random, bumpy_sheet, mixed_rigidity};
     use crate::{Analysis, Neighborhoods, Rigidity, Weights};
 

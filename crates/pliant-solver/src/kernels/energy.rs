@@ -19,10 +19,10 @@
 use glam::{DMat3, DQuat, DVec3, DVec4};
 
 use crate::analysis::Layout;
-use crate::iteration::Pose;
-use crate::neighborhoods::Neighborhoods;
-use crate::parallel::chunks;
-use crate::sums::inner;
+use crate::kernels::iteration::Pose;
+use crate::kernels::parallel::chunks;
+use crate::kernels::sums::inner;
+use crate::rings::neighborhoods::Neighborhoods;
 
 /// Below this fraction of Σ d w (‖e'‖² + ‖e‖²) the difference keeps less than nine digits: it loses seven of the
 /// sixteen, and the sums themselves are good to fifteen or so.

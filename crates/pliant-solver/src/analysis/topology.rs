@@ -4,7 +4,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::Mesh;
-use crate::weights::unit_sides;
+use crate::analysis::weights::unit_sides;
 
 /// Twice the area over the longest side squared below which a face counts as without area. Rounding of coordinates
 /// far from the origin gives 1e-13 or so.

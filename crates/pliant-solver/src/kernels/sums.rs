@@ -14,13 +14,13 @@
 use glam::{DMat3, DVec3};
 
 use crate::analysis::Layout;
-use crate::neighborhoods::Neighborhoods;
-use crate::nines::{Eight, Nine, Nines, NinesRef};
-use crate::parallel::{chunks, pieces, pieces_with};
-use crate::quad::Quad;
-use crate::stars::Flat;
-use crate::transpose::{GROUP, GroupSums, Transpose};
-use crate::wide::{Kernel, Wide, dispatch};
+use crate::analysis::stars::Flat;
+use crate::kernels::nines::{Eight, Nine, Nines, NinesRef};
+use crate::kernels::parallel::{chunks, pieces, pieces_with};
+use crate::kernels::quad::Quad;
+use crate::kernels::wide::{Kernel, Wide, dispatch};
+use crate::rings::neighborhoods::Neighborhoods;
+use crate::rings::transpose::{GROUP, GroupSums, Transpose};
 
 /// A vector per edge.
 pub(crate) trait EdgeVectors: Copy + Sync {

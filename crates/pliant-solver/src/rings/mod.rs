@@ -1,15 +1,22 @@
 //! The neighborhoods of a solver with all that depends on them alone, and what painting other sizes changes of it.
 
+pub(crate) mod edge_set;
+pub(crate) mod moments;
+pub(crate) mod neighborhoods;
+pub(crate) mod progress;
+pub(crate) mod search;
+pub(crate) mod transpose;
+
 use std::ops::Range;
 
 use glam::DMat3;
 use rayon::prelude::*;
 
 use crate::analysis::Layout;
-use crate::energy::FEW_EDGES;
-use crate::moments::{moments, update_moments};
-use crate::neighborhoods::Neighborhoods;
-use crate::transpose::Transpose;
+use crate::kernels::energy::FEW_EDGES;
+use crate::rings::moments::{moments, update_moments};
+use crate::rings::neighborhoods::Neighborhoods;
+use crate::rings::transpose::Transpose;
 use crate::{Analysis, Rigidity, SolveError};
 
 /// From this share of the vertices on, everything is built anew: sorting the ends of so many runs into the others

@@ -13,8 +13,8 @@ use rayon::prelude::*;
 
 use crate::SolveError;
 use crate::analysis::Layout;
-use crate::edge_set::EdgeSet;
-use crate::progress::Meter;
+use crate::rings::edge_set::EdgeSet;
+use crate::rings::progress::Meter;
 
 /// Vertices that share a search: a patch some sixteen edges wide, about as wide as usual neighborhoods, and words that
 /// fill a vector register. By eye.

@@ -20,8 +20,8 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use crate::Mesh;
-use crate::hilbert::Curve;
-use crate::topology::NO_EDGE;
+use crate::analysis::hilbert::Curve;
+use crate::analysis::topology::NO_EDGE;
 
 /// Faces per window. Measured at r = 10: 1024 has 4 % more ends of runs, none has 3 % fewer; the prefix sums of this
 /// one, half a megabyte, stay in the second-level cache.
@@ -206,8 +206,8 @@ mod tests {
     use glam::DVec3;
 
     use super::*;
+    use crate::analysis::topology::sides_of_faces;
     use crate::test_support::{Random, box_bar, bumpy_sheet};
-    use crate::topology::sides_of_faces;
 
     fn order_of(mesh: &Mesh) -> Vec<u32> {
         edge_order(mesh, &sides_of_faces(mesh), &Curve::around(mesh.positions()))

@@ -1,11 +1,11 @@
-//! C_k = Σ_{e ∈ N(k)} w_e e eᵀ, for energies that are small (see [`energy`](crate::energy)): by prefix sums as all sums
+//! C_k = Σ_{e ∈ N(k)} w_e e eᵀ, for energies that are small (see [`energy`](crate::kernels::energy)): by prefix sums as all sums
 //! over neighborhoods, of the six different numbers of a symmetric matrix.
 
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
 use crate::analysis::Layout;
-use crate::neighborhoods::{Neighborhoods, block_of_slot};
+use crate::rings::neighborhoods::{Neighborhoods, block_of_slot};
 
 /// xx, xy, xz, yy, yz, zz.
 type Symmetric = [f64; 6];

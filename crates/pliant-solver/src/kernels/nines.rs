@@ -8,7 +8,7 @@
 //! ```
 //!
 //! so that a product of vectors, or of a matrix and a vector, is eight products side by side and one more: a bᵀ is
-//! `rows(a) · columns(b)`, and M v is what `folded` makes of `M · columns(v)`. See [`Wide`](crate::wide::Wide).
+//! `rows(a) · columns(b)`, and M v is what `folded` makes of `M · columns(v)`. See [`Wide`](crate::kernels::wide::Wide).
 
 use glam::DMat3;
 

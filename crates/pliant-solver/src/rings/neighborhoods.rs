@@ -12,8 +12,8 @@
 use std::ops::ControlFlow;
 
 use crate::analysis::{Analysis, Layout};
-use crate::progress::Meter;
-use crate::search::{Batch, SOURCES, search, work};
+use crate::rings::progress::Meter;
+use crate::rings::search::{Batch, SOURCES, search, work};
 use crate::{Rigidity, SolveError};
 
 /// More runs than this are refused: with their transpose they take 4 GB, and twice their number still fits 32 bits. A

@@ -11,9 +11,9 @@ use glam::DVec3;
 use pulp::bytemuck::cast_slice;
 
 use crate::analysis::{Layout, Spoke};
-use crate::nines::{Nine, NinesRef};
-use crate::quad::Quad;
-use crate::wide::Wide;
+use crate::kernels::nines::{Nine, NinesRef};
+use crate::kernels::quad::Quad;
+use crate::kernels::wide::Wide;
 
 /// Set in the edge of a spoke whose center is the second end of the edge.
 const SECOND: u32 = 1 << 31;

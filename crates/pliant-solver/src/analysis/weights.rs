@@ -13,7 +13,7 @@
 use glam::DVec3;
 
 use crate::Mesh;
-use crate::topology::NO_EDGE;
+use crate::analysis::topology::NO_EDGE;
 
 /// How edges are weighted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -37,7 +37,7 @@ const LARGEST_COTANGENT: f64 = 57.289_961_630_759_42;
 const SMALLEST_OF_MEDIAN: f64 = 1e-3;
 
 /// One weight per edge of the mesh, in the order of [`Mesh::edges`]; always finite, and positive unless raw.
-/// `sides`: edges at the sides of every face, see [`sides_of_faces`](crate::topology::sides_of_faces).
+/// `sides`: edges at the sides of every face, see [`sides_of_faces`](crate::analysis::topology::sides_of_faces).
 pub(crate) fn edge_weights(mesh: &Mesh, sides: &[[u32; 3]], weights: Weights) -> Vec<f64> {
     match weights {
         Weights::Uniform => vec![1.0; mesh.n_edges()],
@@ -120,7 +120,7 @@ fn clamp(w: &mut [f64]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::topology::sides_of_faces;
+    use crate::analysis::topology::sides_of_faces;
 
     fn weights_of(points: &[[f64; 3]], faces: &[[u32; 3]], weights: Weights) -> Vec<f64> {
         let mesh = Mesh::new(points.iter().map(|&p| p.into()).collect(), faces.to_vec()).expect("valid");

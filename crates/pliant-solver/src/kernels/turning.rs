@@ -1,4 +1,4 @@
-//! The best rotations of many neighborhoods at once: the Newton method of [`crate::rotations`], a neighborhood per lane.
+//! The best rotations of many neighborhoods at once: the Newton method of [`crate::kernels::rotations`], a neighborhood per lane.
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -18,9 +18,9 @@
 use glam::{DMat3, DQuat};
 use pulp::Simd;
 
-use crate::lanes::{Lanes, Mask};
-use crate::nines::{Eight, Nine};
-use crate::rotations::{FLAT, LARGEST_STEP, Ties, best_rotation};
+use crate::kernels::lanes::{Lanes, Mask};
+use crate::kernels::nines::{Eight, Nine};
+use crate::kernels::rotations::{FLAT, LARGEST_STEP, Ties, best_rotation};
 
 /// Neighborhoods treated together: few enough to stay in the first cache, a multiple of any number of lanes.
 pub(crate) const LOT: usize = 64;
@@ -98,7 +98,7 @@ impl Lot {
         let (q, r) = (turn.to_array(), rotation.to_cols_array());
         (0..4).for_each(|c| self.q[c][lane] = q[c]);
         (0..9).for_each(|c| self.r[c][lane] = r[c]);
-        self.gain[lane] = crate::sums::inner(rotation, t);
+        self.gain[lane] = crate::kernels::sums::inner(rotation, t);
     }
 
     #[inline(always)]
@@ -252,8 +252,8 @@ mod tests {
     use glam::{DVec3, DVec4};
 
     use super::*;
+    use crate::kernels::wide::{Kernel, Wide, dispatch};
     use crate::test_support::Random;
-    use crate::wide::{Kernel, Wide, dispatch};
 
     struct Solve<'a> {
         matrices: &'a [DMat3],
@@ -310,7 +310,7 @@ mod tests {
                 let (t, case) = (matrices[lane], (lane + n) % 12);
                 let expected = best_rotation(t, before[lane], ties);
                 let got = DMat3::from(Nine { eight: eights[lane], ninth: ninths[lane] });
-                plain += crate::sums::inner(got, t);
+                plain += crate::kernels::sums::inner(got, t);
                 // Where curvature is a millionth of the size of T, rounding of T moves the rotation by a billionth.
                 let off = (turns[lane].dot(expected).abs() - 1.0).abs();
                 assert!(off < 1e-13, "{n} lanes, lane {lane}, case {case}: {} and {expected}", turns[lane]);
