@@ -7,11 +7,10 @@ use super::plan::{Plan, Task};
 use crate::kernels::quad::Quad;
 use crate::kernels::wide::{Kernel, Wide, dispatch};
 
-/// Solves for the rows of all tasks: on entry, the right-hand side at the columns of each task (anything at their
-/// boundaries); on return, the solution in the same places.
-pub(super) fn solve(plan: &Plan, factors: &[TaskFactor], rows: &mut [Quad]) {
+/// Solves for `rhs`, in the caller's rows. The solution is left in `rows`, the rows of all tasks, at their columns.
+pub(super) fn solve(plan: &Plan, factors: &[TaskFactor], rhs: &[Quad], rows: &mut [Quad]) {
     let Some(root) = plan.tasks.len().checked_sub(1) else { return };
-    let work = Work { plan, factors };
+    let work = Work { plan, factors, rhs };
     work.upward(root, rows);
     work.downward(root, rows);
 }
@@ -19,6 +18,7 @@ pub(super) fn solve(plan: &Plan, factors: &[TaskFactor], rows: &mut [Quad]) {
 struct Work<'a> {
     plan: &'a Plan,
     factors: &'a [TaskFactor],
+    rhs: &'a [Quad],
 }
 
 impl Work<'_> {
@@ -27,7 +27,10 @@ impl Work<'_> {
         let task = &self.plan.tasks[index];
         let (below, own) = rows.split_at_mut(rows.len() - task.n_rows());
         self.siblings(&task.children, below, &|child, rows| self.upward(child, rows));
-        own[task.n_columns()..].fill(Quad::ZERO);
+        let (columns, boundary) = own.split_at_mut(task.n_columns());
+        let order = &self.plan.order[task.columns.start as usize..task.columns.end as usize];
+        columns.iter_mut().zip(order).for_each(|(b, &row)| *b = self.rhs[row as usize]);
+        boundary.fill(Quad::ZERO);
         let begin = task.rows_begin - below.len();
         for &child in &task.children {
             let child = &self.plan.tasks[child];

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::factor::{TaskFactor, factor};
 use super::pattern::Pattern;
-use super::plan::Plan;
+use super::plan::{Plan, Task};
 use super::solve::solve;
 use crate::kernels::parallel::chunks;
 use crate::kernels::quad::Quad;
@@ -57,10 +57,13 @@ impl System {
     /// the factor is unusable until the next success.
     pub(crate) fn factor(&mut self, values: &[f64]) -> Result<(), FactorError> {
         let plan = plan_of(&self.pattern)?;
+        let is_changed = |task: &Task| {
+            task.entries.iter().map(|entry| entry.slot as usize).any(|slot| values[slot] != self.values[slot])
+        };
+        let changed: Vec<bool> = plan.tasks.par_iter().map(is_changed).collect();
         for (t, task) in plan.tasks.iter().enumerate() {
-            let changed = || task.entries.iter().map(|e| e.slot as usize).any(|slot| values[slot] != self.values[slot]);
-            let below = || task.children.iter().any(|&child| self.due[child]);
-            self.due[t] = self.due[t] || below() || changed();
+            let is_above = task.children.iter().any(|&child| self.due[child]);
+            self.due[t] = self.due[t] || changed[t] || is_above;
         }
         self.values.copy_from_slice(values);
         factor(plan, &self.values, &self.due, &mut self.factors)
@@ -81,10 +84,7 @@ impl System {
     /// Replaces `rhs` (three right-hand sides, a row of each side by side) by the solution.
     pub(crate) fn solve_in_place(&mut self, rhs: &mut [Quad]) {
         let Ok(plan) = plan_of(&self.pattern) else { return };
-        for (&place, b) in plan.place.iter().zip(&*rhs) {
-            self.rows[place as usize] = *b;
-        }
-        solve(plan, &self.factors, &mut self.rows);
+        solve(plan, &self.factors, rhs, &mut self.rows);
         let rows = &self.rows;
         chunks(rhs, |first, rhs| {
             for (x, &place) in rhs.iter_mut().zip(&plan.place[first..]) {
