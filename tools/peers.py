@@ -206,7 +206,9 @@ def to_one_percent(scene, pliant, most):
     unit = scene.energy(positions()) / own[-1]
     goal = 1.01 * min(path[-1][2], own[-1] * unit)
     theirs = reached(path, goal)
-    ours = next(k for k, energy in enumerate(own, 1) if energy * unit <= goal)
+    ours = next((k for k, energy in enumerate(own, 1) if energy * unit <= goal), None)
+    if ours is None:
+        return theirs, (None, float("inf")), (path[-1][2], own[-1] * unit)
     stages = ("neighborhoods", "order", "factorize", "iterate")
     seconds = lambda: sum(pliant.run(ours, "--rigidity", "1")[1]["times_ms"][stage] for stage in stages) / 1e3
     return theirs, (ours, statistics.median(seconds() for _ in range(REPETITIONS))), (path[-1][2], own[-1] * unit)

@@ -27,6 +27,10 @@ use crate::analysis::topology::NO_EDGE;
 /// one, half a megabyte, stay in the second-level cache.
 const WINDOW: usize = 4096;
 
+/// Over an edge with more faces than this there is no way on: each of them would have to look at all the others. Two are
+/// usual, and a strip that ends there goes on somewhere near.
+const MOST_FACES: u32 = 16;
+
 /// Faces among which a dead end looks for the next one. By eye: a dead end has left few holes near it or none.
 const JUMP: usize = 300;
 
@@ -83,10 +87,12 @@ fn windows(mesh: &Mesh, faces: &[u32]) -> Vec<usize> {
     bounds
 }
 
-/// Faces at edge e: `faces[offsets[e]..offsets[e + 1]]`.
+/// Faces at edge e, none if they are too many: `faces[offsets[e]..offsets[e + 1]]`.
 fn faces_of_edges(n_edges: usize, sides: &[[u32; 3]]) -> (Vec<u32>, Vec<u32>) {
     let edges = || sides.iter().enumerate().flat_map(|(face, sides)| sides.map(|e| (face as u32, e)));
-    let real = || edges().filter(|&(_, e)| e != NO_EDGE);
+    let mut n_faces = vec![0u32; n_edges];
+    edges().filter(|&(_, e)| e != NO_EDGE).for_each(|(_, e)| n_faces[e as usize] += 1);
+    let real = || edges().filter(|&(_, e)| e != NO_EDGE && n_faces[e as usize] <= MOST_FACES);
     let mut offsets = vec![0u32; n_edges + 1];
     real().for_each(|(_, e)| offsets[e as usize + 1] += 1);
     (0..n_edges).for_each(|e| offsets[e + 1] += offsets[e]);
@@ -228,6 +234,21 @@ mod tests {
             assert!(sorted.iter().copied().eq(0..mesh.n_edges() as u32), "{} edges listed", order.len());
             let component = |e: &u32| mesh.components()[mesh.edges()[*e as usize][0] as usize];
             assert!(order.is_sorted_by_key(component));
+        }
+    }
+
+    #[test]
+    fn a_book_of_many_pages_and_a_wheel_of_many_spokes_are_listed_in_no_time() {
+        // Whoever looks from every face at all others of the edge, or at all edges of the hub, does not come back.
+        let n = 60_000;
+        let points: Vec<DVec3> = (0..n + 2).map(|v| DVec3::new(0.0, f64::from(v), f64::from(v % 7))).collect();
+        let book = (2..n).map(|v| [0, 1, v]).collect();
+        let wheel = (1..n).map(|v| [0, v, v + 1]).collect();
+        for faces in [book, wheel] {
+            let mesh = Mesh::new(points.clone(), faces).expect("valid");
+            let mut order = order_of(&mesh);
+            order.sort_unstable();
+            assert!(order.iter().copied().eq(0..mesh.n_edges() as u32), "{} edges listed", order.len());
         }
     }
 

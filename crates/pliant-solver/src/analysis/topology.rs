@@ -44,13 +44,13 @@ pub(crate) const NO_EDGE: u32 = u32::MAX;
 /// The edges at the three sides of every face: from its first corner to the second, to the third, and back.
 pub(crate) fn sides_of_faces(mesh: &Mesh) -> Vec<[u32; 3]> {
     // Edges are sorted by their lower end: those of vertex v begin at `first[v]`.
-    let mut first = vec![0; mesh.n_vertices() + 1];
+    let mut first = vec![0usize; mesh.n_vertices() + 1];
     mesh.edges().iter().for_each(|&[lower, _]| first[lower as usize + 1] += 1);
     (0..mesh.n_vertices()).for_each(|v| first[v + 1] += first[v]);
     let edge = |a: u32, b: u32| {
         let (lower, upper) = (a.min(b) as usize, a.max(b));
-        let place = (first[lower]..first[lower + 1]).find(|&e: &usize| mesh.edges()[e][1] == upper);
-        place.map_or(NO_EDGE, |e| e as u32)
+        let place = mesh.edges()[first[lower]..first[lower + 1]].binary_search_by_key(&upper, |edge| edge[1]);
+        place.map_or(NO_EDGE, |place| (first[lower] + place) as u32)
     };
     mesh.triangles().par_iter().map(|&[a, b, c]| [edge(a, b), edge(b, c), edge(c, a)]).collect()
 }

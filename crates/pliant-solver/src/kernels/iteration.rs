@@ -298,13 +298,18 @@ impl Kernel for Turn<'_> {
                     run_sum(wide, &rings.neighborhoods, prefix, k)
                 };
                 lot.load(lane, Nine { eight: Eight(wide.array8(eight)), ninth }, turn);
-                let p = positions.numbers(k);
-                largest = std::array::from_fn(|c| largest[c].max(p[c].abs()));
+                // A vertex without edges adds no rounding to the energy, however far away it is.
+                if layout.offsets[k] != layout.offsets[k + 1] {
+                    let p = positions.numbers(k);
+                    largest = std::array::from_fn(|c| largest[c].max(p[c].abs()));
+                }
             }
             gain += lot.solve(wide, ties, turns, out);
         }
         let [x, y, z, _] = wide.array4(squares);
-        Part { gain, squares: x + y + z, largest: largest.into_iter().fold(0.0, f64::max) }
+        // The fourth number belongs to the next vertex.
+        let [a, b, c, _] = largest;
+        Part { gain, squares: x + y + z, largest: a.max(b).max(c) }
     }
 }
 

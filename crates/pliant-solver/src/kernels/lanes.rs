@@ -1,7 +1,7 @@
 //! As many numbers side by side as the processor computes with at once, with the operators of one.
 //!
 //! Every operation is the one of the standard for each lane, so results are the same for any number of lanes; only
-//! products with a sum are rounded once or twice, as the processor does.
+//! products with a sum are rounded once or twice, see [`wide`](super::wide).
 
 use std::ops::{Add, Div, Mul, Sub};
 

@@ -1,7 +1,8 @@
 //! Registers of four and of eight numbers, whatever the processor has, and the choice of the best at run time.
 //!
 //! Every operation is the one of the standard for each number, so results are the same whether there are four or eight
-//! at once; only processors that cannot round a product with a sum once (before 2013) differ in the last digit.
+//! at once. A product with a sum is rounded once on x86-64 processors with AVX2 (since 2013) and twice on all others,
+//! which therefore differ in the last digit.
 
 use pulp::{Scalar, Simd};
 

@@ -102,7 +102,7 @@ impl History {
     }
 
     /// Completes a step to a pair, now that f, with `now` its products and `fv` the one with the new v, is known.
-    /// Returns the products with f of the slot's w. A pair without positive curvature is left out.
+    /// Puts the product of f with the slot's w into `now`. A pair without positive curvature is left out.
     pub(super) fn complete(&mut self, pending: &Pending, now: &mut Products, fv: f64) {
         let Pending { slot, factor, products: before, fv: fv_before } = *pending;
         for i in self.slots[..self.n_slots].iter().copied().chain([slot]) {

@@ -64,7 +64,7 @@ fn eliminate_few(front: &mut [f64], n: usize, first: usize, few: usize) -> Resul
             column.iter_mut().zip(earlier).for_each(|(c, e)| *c -= factor * e);
         }
         let pivot = column[0];
-        if pivot.is_nan() || pivot <= 0.0 {
+        if pivot.is_nan() || pivot <= 0.0 || pivot.is_infinite() {
             return Err(first + j);
         }
         let scale = 1.0 / pivot.sqrt();
@@ -105,7 +105,8 @@ fn eliminate_large(front: &mut [f64], n: usize, width: usize) -> Result<(), usiz
         let (mut pivots, _, mut below, remainder) = rest.split_at_mut(block, block);
         let stack = MemStack::new(&mut memory);
         let outcome = cholesky_in_place(pivots.rb_mut(), Default::default(), Par::Seq, stack, Default::default());
-        let bad = (0..block).find(|&j| pivots[(j, j)].is_nan() || pivots[(j, j)] <= 0.0);
+        let is_bad = |pivot: f64| pivot.is_nan() || pivot <= 0.0 || pivot.is_infinite();
+        let bad = (0..block).find(|&j| is_bad(pivots[(j, j)]));
         if outcome.is_err() || bad.is_some() {
             return Err(first + bad.unwrap_or(0));
         }

@@ -12,7 +12,7 @@ pub(super) fn postordered(order: &[u32], offsets: &[u32], neighbors: &[u32]) -> 
     postorder(&parents).into_iter().map(|column| order[column as usize]).collect()
 }
 
-/// Parent of each column, by walking up from the earlier neighbors of each column with the paths halved on the way
+/// Parent of each column, by walking up from the earlier neighbors of each column shortening the paths on the way
 /// (Liu 1986).
 fn elimination_tree(order: &[u32], offsets: &[u32], neighbors: &[u32]) -> Vec<u32> {
     let n = order.len();

@@ -40,8 +40,7 @@ impl TaskFactor {
     }
 }
 
-/// Factors the tasks of `due` among those up to the last of `factors`, below before above. `values`: entries of the
-/// matrix. The error is the first column, in elimination order, of a pivot that is not positive.
+/// Factors the tasks that are `due`, below before above; there is one factor per task. `values`: entries of the matrix. The error is the first column, in elimination order, of a pivot that is not positive.
 pub(super) fn factor(plan: &Plan, values: &[f64], due: &[bool], factors: &mut [TaskFactor]) -> Result<(), u32> {
     let Some(root) = plan.tasks.len().checked_sub(1) else { return Ok(()) };
     factor_subtree(&Work { plan, values, due }, root, factors)

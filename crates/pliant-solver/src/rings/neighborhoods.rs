@@ -16,7 +16,7 @@ use crate::rings::progress::Meter;
 use crate::rings::search::{Batch, SOURCES, search, work};
 use crate::{Rigidity, SolveError};
 
-/// More runs than this are refused: with their transpose they take 4 GB, and twice their number still fits 32 bits. A
+/// More runs than this are refused: with their transpose they take 5 GB, and twice their number still fits 32 bits. A
 /// million vertices with r = 10 have a seventh of it.
 const MOST_RUNS: usize = 1 << 28;
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use crate::test_support::{bumpy_sheet, solver};
+use crate::test_support::{box_bar, bumpy_sheet, solver};
 use crate::{Analysis, LooseComponents, Mesh, Neighborhoods, Rigidity, SolveError, Solver, Start, VertexId, Weights};
 
 /// A tetrahedron; beside it collinear, repeated, duplicate and non-manifold faces, a second component, a straight chain
@@ -113,6 +113,30 @@ fn handles_pulled_to_one_point_give_finite_poses() {
             }
         }
     }
+}
+
+#[test]
+fn a_vertex_of_no_face_far_away_takes_no_digit_from_the_energy() {
+    let bar = box_bar([2, 2, 10], DVec3::new(1.0, 1.0, 5.0));
+    let energy_with = |stray: Option<DVec3>| {
+        let points = bar.positions().iter().copied().chain(stray).collect();
+        let mesh = Mesh::new(points, bar.triangles().to_vec()).expect("valid");
+        let ends = (0..bar.n_vertices()).filter(|&v| [0.0, 5.0].contains(&bar.positions()[v].z));
+        let held: Vec<VertexId> = ends.map(|v| VertexId(v as u32)).collect();
+        let lifted = |v: &VertexId| {
+            let p = bar.positions()[v.index()];
+            if p.z == 0.0 { p } else { p + DVec3::X * 0.01 }
+        };
+        let targets: Vec<DVec3> = held.iter().map(lifted).collect();
+        let n = mesh.n_vertices();
+        let mut solver = solver(mesh, Weights::Clamped, &Rigidity::uniform(n, 1), &held);
+        solver.set_targets(&targets).expect("finite");
+        (0..5).map(|_| solver.step().energy).last().expect("five steps")
+    };
+    let (alone, beside) = (energy_with(None), energy_with(Some(DVec3::splat(1e12))));
+    assert!(alone > 0.0);
+    // The stray vertex changes the order of sums only.
+    assert!((alone - beside).abs() <= 1e-9 * alone, "got {beside}, expected {alone}");
 }
 
 #[test]

@@ -84,18 +84,21 @@ pub(crate) fn drag(scene: &Scene, rigidity: &Rigidity) -> Result<String, SolveEr
     reference.set_minimizer(Minimizer::Lbfgs);
     let lowest = lowest_energies(scene, &mut reference, &dragged)?;
 
-    let mut table = Table::new(1, &["how", "surfaces a second", "mean excess energy, %", "/ first"]);
+    let mut table = Table::new(1, &["how", "iterations a second", "mean excess energy, %", "/ first"]);
     let mean_lowest = lowest.iter().sum::<f64>() / FRAMES as f64;
     let excess = |frames: &[Frame]| {
         let over: f64 = frames.iter().zip(&lowest).map(|(frame, lowest)| frame.energy - lowest).sum();
         100.0 * over / FRAMES as f64 / mean_lowest
     };
     for (how, frames) in &dragged {
-        let surfaces: usize = frames.iter().map(|frame| frame.iterations).sum();
+        let iterations: usize = frames.iter().map(|frame| frame.iterations).sum();
         let seconds: f64 = frames.iter().map(|frame| frame.taken.as_secs_f64()).sum();
         let own = excess(frames);
         let how = how.split_once(',').map_or(*how, |(minimizer, _)| minimizer);
-        let cells = [digits(surfaces as f64 / seconds), digits(own), format!("{:.3}", own / excess(&dragged[0].1))];
+        let first = excess(&dragged[0].1);
+        // Below this the first has converged in every frame, and there is nothing to compare with.
+        let share = if first > 1e-3 { format!("{:.3}", own / first) } else { "–".to_owned() };
+        let cells = [digits(iterations as f64 / seconds), digits(own), share];
         table.row([how.to_owned()].into_iter().chain(cells));
     }
     Ok(format!(

@@ -16,7 +16,7 @@ neighborhoods (none at r = 1) and the values of L:
 
 | kernel | bytes |
 | --- | --- |
-| gradient | n (p' 24 + R 72 + right-hand side 32) + m (e 24 + w 8 + d w 8 + ends 8); r > 1: + m (Q 2 × 72 + pulls 2 × 32) + runs × 8 |
+| gradient | n (p' 24 + R 72 + right-hand side 32) + m (e 24 + w 8 + d w 8 + ends 8); r > 1: + m (pulls 2 × 32) + runs × 8 |
 | solve | L 2 × 8 + n (right-hand side 2 × 32) |
 | local | n (p' 24 + quaternion 2 × 32 + R 72) + m (e 24 + w 8 + ends 8); r > 1: + m (prefix sums 2 × 72) + runs × 8 |
 
@@ -70,7 +70,7 @@ fn bytes(kernel: Kernel, counts: Counts) -> f64 {
     let Counts { vertices: n, edges: m, runs, factor } = counts;
     let overlap = |per_edge: usize| if runs > 0 { per_edge * m + 8 * runs } else { 0 };
     let bytes = match kernel {
-        Kernel::Gradient => 128 * n + 48 * m + overlap(2 * 72 + 2 * 32),
+        Kernel::Gradient => 128 * n + 48 * m + overlap(2 * 32),
         Kernel::Solve => 16 * factor + 64 * n,
         Kernel::Local => 160 * n + 40 * m + overlap(2 * 72),
     };

@@ -97,7 +97,7 @@ fn measure(options: &Options, program: Option<&Path>) -> Result<String, Failure>
     let machine = Machine::measure();
     let mut page = String::from(
         "# Performance\n\n\
-         Made by `cargo xtask bench --peers`. Times are medians of several repetitions, beside whatever else the machine \
+         Made by `cargo xtask bench`. Times are medians of several repetitions, beside whatever else the machine \
          did: ratios say more than times.\n\n",
     );
     let mut section = |title: &str, text: &str| page.push_str(&format!("## {title}\n\n{text}"));

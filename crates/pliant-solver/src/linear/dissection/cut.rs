@@ -21,6 +21,9 @@ const BINS: usize = 64;
 /// Neither half should be smaller than this share of the piece.
 const SMALLEST_HALF: f32 = 0.3;
 
+/// A half smaller than this share of the piece is no use: the recursion would become deep.
+const TINY_HALF: f32 = 0.14;
+
 /// Sides of all vertices, or `None` if no separator of use was found.
 pub(super) fn separate(piece: &Piece) -> Option<Vec<u32>> {
     let axis = longest_axis(piece);
@@ -40,11 +43,12 @@ pub(super) fn separate(piece: &Piece) -> Option<Vec<u32>> {
     let cut_by_axis = || by_axis.and_then(|place| separate_at(piece, &along, place.share, reach));
     let cut_by_level = || by_level.and_then(|place| separate_at(piece, &by_distance, place.share, |_| 1.0));
     let cost = |place: Option<Place>| place.map_or(f32::INFINITY, |place| place.cost);
-    if cost(by_axis) <= cost(by_level) {
+    let cheapest = if cost(by_axis) <= cost(by_level) {
         cut_by_axis().or_else(cut_by_level)
     } else {
         cut_by_level().or_else(cut_by_axis)
-    }
+    };
+    cheapest.or_else(|| separate_at(piece, &by_distance, 0.5, |_| 1.0))
 }
 
 /// A value to cut at: the share of the vertices below it, and how bad it is.
@@ -81,7 +85,9 @@ fn sweep(piece: &Piece, keys: &[f32]) -> Option<Place> {
         crossing += begun[bin];
         let share = below as f32 / n as f32;
         let cost = crossing as f32 * penalty(share);
-        if best.is_none_or(|best| cost < best.cost) {
+        // A cut that leaves next to nothing on one side, as at the root of a tail, would be refused.
+        let is_of_use = share.min(1.0 - share) > TINY_HALF;
+        if is_of_use && best.is_none_or(|best| cost < best.cost) {
             best = Some(Place { share, cost });
         }
     }
