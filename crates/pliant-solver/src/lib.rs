@@ -83,6 +83,7 @@ mod ids;
 mod kernels;
 mod lbfgs;
 mod linear;
+mod matrix;
 #[cfg(feature = "measure")]
 #[doc(hidden)]
 pub mod measure;

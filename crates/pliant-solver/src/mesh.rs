@@ -197,4 +197,14 @@ mod tests {
         assert_eq!(defects.inconsistent_edges, 2, "{defects:?}");
         assert_eq!(defects.boundary_edges, 7, "{defects:?}");
     }
+    #[test]
+    fn a_face_with_a_repeated_corner_is_degenerate_and_changes_nothing_else() {
+        let p = vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z, -DVec3::Y];
+        let faces = vec![[0, 1, 2], [1, 0, 4]];
+        let without = Mesh::new(p.clone(), faces.clone()).expect("valid");
+        let with = Mesh::new(p, [faces, vec![[0, 0, 1], [2, 1, 2], [3, 3, 3], [2, 3, 2]]].concat()).expect("valid");
+        let expected = Defects { degenerate_faces: 4, unreferenced_vertices: 0, ..without.defects() };
+        assert_eq!(with.defects(), expected);
+        assert_eq!(with.n_edges(), without.n_edges() + 1, "they are edges none the less");
+    }
 }

@@ -11,14 +11,11 @@ use crate::kernels::iteration::{LocalOutcome, Pose, Workspace};
 use crate::kernels::parallel::on_pool;
 use crate::kernels::rotations::Ties;
 use crate::lbfgs::{Lbfgs, Verdict};
-use crate::linear::{FactorError, System};
+use crate::linear::System;
+use crate::matrix::explain;
 use crate::mesh::is_usable;
 use crate::rings::Rings;
-use crate::{LooseComponents, Neighborhoods, Rigidity, SolveError, Start, VertexId, Weights};
-
-/// From this share of the blocks of edges on, the whole matrix is assembled anew: sums at vertices are then asked for by
-/// each of their edges, six times.
-const MANY_BLOCKS: usize = 6;
+use crate::{LooseComponents, Neighborhoods, Rigidity, SolveError, Start, VertexId};
 
 /// How an iteration uses what the ones before have taught. E never rises with either.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -56,7 +53,7 @@ pub struct StepReport {
 /// | `set_pose` | copies; one local step, with a full search for the best rotation where vertices turned far |
 /// | `start` | `Keep`, `Rest`: copies; `Auto`: up to four iterations and one solve |
 /// | `set_minimizer` | memory of 248 bytes per vertex for L-BFGS |
-/// | `step` | one iteration: one solve, one local step (seldom more under L-BFGS); no factorization, no allocation |
+/// | `step`, `step_while` | one iteration: one solve, one local step (seldom more under L-BFGS); no factorization, no allocation |
 ///
 /// Every call that can fail leaves the solver as it was when it does.
 ///
@@ -71,13 +68,15 @@ pub struct Solver {
     policy: LooseComponents,
     pub(crate) held: Held,
     /// Values of the matrix that is factored.
-    values: Vec<f64>,
+    pub(crate) values: Vec<f64>,
     pub(crate) system: System,
     pub(crate) pose: Pose,
     pub(crate) workspace: Workspace,
     pub(crate) energy: f64,
     /// Energy of the previous iteration, if it belongs to the same targets, held vertices and rigidity.
     pub(crate) comparable: Option<f64>,
+    /// Whether held vertices are at their targets.
+    is_placed: bool,
     pub(crate) iteration: u64,
     /// Whether the last start was [`Start::Rest`]: then ties of the local step are left open as in the paper.
     pub(crate) from_rest: bool,
@@ -118,6 +117,7 @@ impl Solver {
             workspace,
             energy: 0.0,
             comparable: None,
+            is_placed: true,
             iteration: 0,
             from_rest: false,
             lbfgs: None,
@@ -161,7 +161,7 @@ impl Solver {
         }
         let touched = self.rings.repaint(&self.analysis, rigidity)?;
         if !touched.is_empty() {
-            let values = self.reassemble(&touched);
+            let values = self.repainted(&touched);
             if let Err(error) = self.factor(values) {
                 // The sizes from before were there, so they fit.
                 self.rings.repaint(&self.analysis, &self.rigidity)?;
@@ -182,7 +182,7 @@ impl Solver {
     pub fn set_held(&mut self, held: &[VertexId]) -> Result<(), SolveError> {
         let held = Held::new(&self.analysis.layout, held, &self.pose.positions, self.policy)?;
         if held.is_fixed != self.held.is_fixed {
-            let values = self.assemble(&self.rings.stiffness, &held.is_fixed);
+            let values = self.refixed(&held.is_fixed);
             self.factor(values)?;
         }
         self.held = held;
@@ -198,6 +198,7 @@ impl Solver {
     pub fn set_targets(&mut self, targets: &[DVec3]) -> Result<(), SolveError> {
         self.held.set_targets(&self.analysis.layout.rest, targets)?;
         self.comparable = None;
+        self.is_placed = false;
         Ok(())
     }
 
@@ -219,6 +220,7 @@ impl Solver {
         for (p, &caller) in self.pose.positions.iter_mut().zip(&layout.to_caller) {
             *p = positions[caller as usize];
         }
+        self.is_placed = false;
         self.refresh();
         Ok(())
     }
@@ -234,6 +236,7 @@ impl Solver {
             Start::Keep => {}
             Start::Rest => {
                 self.pose = Pose::at_rest(&self.analysis.layout.rest);
+                self.is_placed = false;
                 self.energy = 0.0;
             }
             Start::Auto => return self.start_auto(),
@@ -249,39 +252,67 @@ impl Solver {
         })
     }
 
+    /// As [`Solver::step`], but gives way where that helps: nothing is returned, and the pose is as before, if `is_wanted`
+    /// says no before the step has moved anything. It is asked between the parts of the global step, from the thread that
+    /// works. The first step after a change of any kind is always taken. What L-BFGS has learned is lost with the step.
+    pub fn step_while(&mut self, is_wanted: &mut (dyn FnMut() -> bool + Send)) -> Option<StepReport> {
+        let is_first = self.comparable.is_none();
+        on_pool(self.pose.positions.len(), || {
+            let moved = self.move_all(&mut || is_first || is_wanted());
+            moved.then(|| self.local_step())
+        })
+    }
+
     /// Held vertices go exactly to their targets and the free ones to where the energy is least for the current
     /// rotations (3.2.1), or under [`Minimizer::Lbfgs`] to where it is thought to be least with the best rotations.
     pub fn global_step(&mut self) {
-        on_pool(self.pose.positions.len(), || self.move_all());
+        on_pool(self.pose.positions.len(), || self.move_all(&mut || true));
     }
 
-    fn move_all(&mut self) {
+    /// Whether it came to that.
+    fn move_all(&mut self, is_wanted: &mut dyn FnMut() -> bool) -> bool {
         let layout = &self.analysis.layout;
         self.held.place(&layout.rest, &mut self.pose.positions);
+        self.is_placed = true;
         if self.from_rest && self.iteration == 0 {
             // The paper's p' = A⁻¹ b, with the rounding that decides its ties: a correction of nothing.
             let free = self.pose.positions.iter_mut().zip(&self.held.is_fixed).filter(|(_, is_fixed)| !**is_fixed);
             free.for_each(|(p, _)| *p = DVec3::ZERO);
         }
-        self.move_free();
-        self.iteration += 1;
+        let moved = self.move_free(is_wanted);
+        self.iteration += u64::from(moved);
+        moved
     }
 
     /// The free vertices' part of a global step: plain, or as L-BFGS proposes where E at the current pose is known.
-    fn move_free(&mut self) {
+    fn move_free(&mut self, is_wanted: &mut dyn FnMut() -> bool) -> bool {
         let Solver { rings, system, pose, workspace, .. } = self;
         let (layout, is_fixed) = (&self.analysis.layout, &self.held.is_fixed);
-        if let Some(lbfgs) = &mut self.lbfgs {
+        workspace.gradient(layout, rings, is_fixed, pose);
+        if !is_wanted() {
+            return false;
+        }
+        let mut lbfgs = self.lbfgs.as_mut();
+        if let Some(lbfgs) = &mut lbfgs {
             if let Some(energy) = self.comparable.filter(|&energy| energy != 0.0 && !lbfgs.is_waiting()) {
-                workspace.gradient(layout, rings, is_fixed, pose);
                 lbfgs.take_gradient(&workspace.rhs);
                 system.solve_in_place(&mut workspace.rhs);
-                lbfgs.propose(&workspace.rhs, energy, &mut pose.positions);
-                return;
+                if is_wanted() {
+                    lbfgs.propose(&workspace.rhs, energy, &mut pose.positions);
+                    return true;
+                }
+                // A gradient was taken in that no step will follow.
+                lbfgs.forget();
+                return false;
             }
             lbfgs.interrupt();
         }
-        workspace.global(layout, rings, system, is_fixed, pose);
+        system.solve_in_place(&mut workspace.rhs);
+        let is_wanted = is_wanted();
+        if is_wanted {
+            workspace.correct(is_fixed, pose);
+        }
+        is_wanted
     }
 
     /// The best rotations for the current positions, and the energy; where L-BFGS went too far, first shorter steps.
@@ -316,7 +347,8 @@ impl Solver {
             None => 1.0,
         };
         self.energy = energy;
-        self.comparable = Some(energy);
+        // An energy with held vertices away from their targets is another one's.
+        self.comparable = Some(energy).filter(|_| self.is_placed);
         StepReport { energy, iteration: self.iteration, relative_decrease }
     }
 
@@ -382,80 +414,5 @@ impl Solver {
         self.comparable = None;
         self.local_step();
         self.comparable = None;
-    }
-
-    /// The matrix of the global step: d w Laplacian, fixed vertices as identity rows.
-    fn assemble(&self, stiffness: &[f64], is_fixed: &[bool]) -> Vec<f64> {
-        let Analysis { layout, pattern, slots, .. } = &*self.analysis;
-        let mut values = vec![0.0; pattern.n_values()];
-        for (e, &[i, j]) in layout.edges.iter().enumerate() {
-            let (i_free, j_free) = (!is_fixed[i as usize], !is_fixed[j as usize]);
-            if i_free {
-                values[pattern.diagonal(i as usize)] += stiffness[e];
-            }
-            if j_free {
-                values[pattern.diagonal(j as usize)] += stiffness[e];
-            }
-            if i_free && j_free {
-                values[slots[e] as usize] = -stiffness[e];
-            }
-        }
-        for i in (0..layout.n_vertices()).filter(|&i| is_fixed[i]) {
-            values[pattern.diagonal(i)] = 1.0;
-        }
-        values
-    }
-
-    /// The matrix where only the stiffness of edges of these blocks has changed. The same bits as from
-    /// [`Solver::assemble`], since spokes ascend by edge.
-    fn reassemble(&self, blocks: &[usize]) -> Vec<f64> {
-        let Analysis { layout, pattern, slots, .. } = &*self.analysis;
-        if blocks.len() > layout.n_blocks() / MANY_BLOCKS {
-            return self.assemble(&self.rings.stiffness, &self.held.is_fixed);
-        }
-        let (stiffness, is_fixed) = (&self.rings.stiffness, &self.held.is_fixed);
-        let mut values = self.values.clone();
-        for e in blocks.iter().flat_map(|&block| layout.blocks[block] as usize..layout.blocks[block + 1] as usize) {
-            let ends = layout.edges[e].map(|end| end as usize);
-            if ends.iter().all(|&end| !is_fixed[end]) {
-                values[slots[e] as usize] = -stiffness[e];
-            }
-            for end in ends.into_iter().filter(|&end| !is_fixed[end]) {
-                values[pattern.diagonal(end)] =
-                    layout.spokes(end).iter().fold(0.0, |sum, spoke| sum + stiffness[spoke.edge as usize]);
-            }
-        }
-        values
-    }
-
-    /// Factors new values, or returns to the ones before.
-    fn factor(&mut self, values: Vec<f64>) -> Result<(), SolveError> {
-        let mut outcome = self.system.factor(&values);
-        if outcome.is_ok()
-            && self.analysis.weights() == Weights::Cotangent
-            && let Some(row) = self.system.doubtful_pivot()
-        {
-            outcome = Err(FactorError::NonPositivePivot { row });
-        }
-        match outcome {
-            Ok(()) => {
-                self.values = values;
-                Ok(())
-            }
-            Err(error) => {
-                if !self.values.is_empty() {
-                    // These were factored before, with the same order of operations: they succeed again.
-                    self.system.factor(&self.values).map_err(|error| explain(&self.analysis, error))?;
-                }
-                Err(explain(&self.analysis, error))
-            }
-        }
-    }
-}
-
-fn explain(analysis: &Analysis, error: FactorError) -> SolveError {
-    match error {
-        FactorError::NonPositivePivot { row } => SolveError::Indefinite { vertex: analysis.layout.to_caller[row] },
-        FactorError::TooLarge => SolveError::TooLarge { what: "the factored system" },
     }
 }

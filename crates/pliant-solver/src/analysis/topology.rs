@@ -10,31 +10,42 @@ use crate::analysis::weights::unit_sides;
 /// far from the origin gives 1e-13 or so.
 const FLAT: f64 = 1e-12;
 
+/// A side of a face between two vertices.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Side {
+    lower: u32,
+    upper: u32,
+    /// Whether the face has three vertices; one with a repeated corner is an edge or a point.
+    is_whole: bool,
+    /// Whether the face runs from lower to upper.
+    ascends: bool,
+}
+
 /// The sides of all triangles, sorted by their ends.
 pub(crate) struct HalfEdges {
-    /// (lower end, upper end, whether the face runs from lower to upper).
-    sides: Vec<(u32, u32, bool)>,
+    sides: Vec<Side>,
 }
 
 impl HalfEdges {
     pub(crate) fn new(triangles: &[[u32; 3]]) -> HalfEdges {
-        let mut sides: Vec<_> = triangles
-            .iter()
-            .flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)])
-            .filter(|(a, b)| a != b)
-            .map(|(a, b)| (a.min(b), a.max(b), a < b))
-            .collect();
+        let sides_of = |&[a, b, c]: &[u32; 3]| {
+            let is_whole = a != b && b != c && c != a;
+            let side = move |(a, b): (u32, u32)| Side { lower: a.min(b), upper: a.max(b), is_whole, ascends: a < b };
+            [(a, b), (b, c), (c, a)].map(side)
+        };
+        let mut sides: Vec<Side> =
+            triangles.iter().flat_map(sides_of).filter(|side| side.lower != side.upper).collect();
         sides.sort_unstable();
         HalfEdges { sides }
     }
 
     /// Each undirected edge once.
     pub(crate) fn edges(&self) -> Vec<[u32; 2]> {
-        self.groups().map(|group| [group[0].0, group[0].1]).collect()
+        self.groups().map(|group| [group[0].lower, group[0].upper]).collect()
     }
 
-    fn groups(&self) -> impl Iterator<Item = &[(u32, u32, bool)]> {
-        self.sides.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1))
+    fn groups(&self) -> impl Iterator<Item = &[Side]> {
+        self.sides.chunk_by(|a, b| (a.lower, a.upper) == (b.lower, b.upper))
     }
 }
 
@@ -80,7 +91,8 @@ pub(crate) fn components(offsets: &[u32], neighbors: &[u32]) -> (Vec<u32>, usize
     (component, n_components as usize)
 }
 
-/// How often a mesh departs from a closed, consistently oriented surface. None of it is an error.
+/// How often a mesh departs from a closed, consistently oriented surface. None of it is an error. Faces with a repeated
+/// vertex count as degenerate, and not as faces of their edges.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Defects {
     /// Edges with one face.
@@ -100,9 +112,11 @@ pub struct Defects {
 pub(crate) fn count_defects(positions: &[DVec3], triangles: &[[u32; 3]], half_edges: &HalfEdges) -> Defects {
     let mut defects = Defects::default();
     for group in half_edges.groups() {
-        match group {
+        // Faces with a repeated corner come first, and bound nothing.
+        match &group[group.partition_point(|side| !side.is_whole)..] {
+            [] => {}
             [_] => defects.boundary_edges += 1,
-            [one, other] => defects.inconsistent_edges += usize::from(one.2 == other.2),
+            [one, other] => defects.inconsistent_edges += usize::from(one.ascends == other.ascends),
             _ => defects.non_manifold_edges += 1,
         }
     }

@@ -14,7 +14,6 @@ use crate::kernels::sums::{
 };
 use crate::kernels::turning::{LOT, Lot};
 use crate::kernels::wide::{Kernel, Wide, dispatch};
-use crate::linear::System;
 use crate::rings::Rings;
 
 /// p' and R of every vertex, internal numbering.
@@ -128,26 +127,6 @@ impl Workspace {
         }
     }
 
-    /// Given R, the p' of least energy (3.2.1): solves for the correction, p' ← p' + A⁻¹ (b − A p'), so that rounding of
-    /// one solve is mended by the next and distance from the origin costs nothing.
-    pub(crate) fn global(
-        &mut self,
-        layout: &Layout,
-        rings: &Rings,
-        system: &mut System,
-        is_fixed: &[bool],
-        pose: &mut Pose,
-    ) {
-        self.gradient(layout, rings, is_fixed, pose);
-        system.solve_in_place(&mut self.rhs);
-        let corrections = &self.rhs;
-        chunks(&mut pose.positions, |first, positions| {
-            for (i, p) in (first..).zip(positions).filter(|(i, _)| !is_fixed[*i]) {
-                *p += corrections[i].xyz();
-            }
-        });
-    }
-
     /// b − A p' into `rhs`, which is minus half the gradient of the energy; 0 at fixed vertices.
     pub(crate) fn gradient(&mut self, layout: &Layout, rings: &Rings, is_fixed: &[bool], pose: &Pose) {
         let Workspace { pulls, prefix, rhs, has_stars, .. } = self;
@@ -160,6 +139,17 @@ impl Workspace {
             edge_pulls((&rings.stiffness, r), now, (&rings.transpose, rotations), pulls);
             vertex_pulls(is_fixed, GatheredPull { layout, pulls }, rhs);
         }
+    }
+
+    /// The end of a plain global step: p' ← p' + A⁻¹ (b − A p'), with the solution in `rhs`. Solving for the correction,
+    /// rounding of one solve is mended by the next, and distance from the origin costs nothing.
+    pub(crate) fn correct(&self, is_fixed: &[bool], pose: &mut Pose) {
+        let corrections = &self.rhs;
+        chunks(&mut pose.positions, |first, positions| {
+            for (i, p) in (first..).zip(positions).filter(|(i, _)| !is_fixed[*i]) {
+                *p += corrections[i].xyz();
+            }
+        });
     }
 
     /// Given p', the R of least energy (3.2.2).

@@ -40,8 +40,18 @@ impl TaskFactor {
     }
 }
 
-/// Factors the tasks that are `due`, below before above; there is one factor per task. `values`: entries of the matrix. The error is the first column, in elimination order, of a pivot that is not positive.
-pub(super) fn factor(plan: &Plan, values: &[f64], due: &[bool], factors: &mut [TaskFactor]) -> Result<(), u32> {
+/// Why a task could not be done.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Failure {
+    /// The pivot of this column, in elimination order, is not positive.
+    Pivot(u32),
+    /// Memory.
+    TooLarge,
+}
+
+/// Factors the tasks that are `due`, below before above; there is one factor per task. `values`: entries of the matrix.
+/// The error is that of the first task, in elimination order.
+pub(super) fn factor(plan: &Plan, values: &[f64], due: &[bool], factors: &mut [TaskFactor]) -> Result<(), Failure> {
     let Some(root) = plan.tasks.len().checked_sub(1) else { return Ok(()) };
     factor_subtree(&Work { plan, values, due }, root, factors)
 }
@@ -53,16 +63,16 @@ struct Work<'a> {
 }
 
 /// `factors`: of the subtree of a task, which comes last.
-fn factor_subtree(work: &Work<'_>, index: usize, factors: &mut [TaskFactor]) -> Result<(), u32> {
+fn factor_subtree(work: &Work<'_>, index: usize, factors: &mut [TaskFactor]) -> Result<(), Failure> {
     let task = &work.plan.tasks[index];
     let Some((own, below)) = factors.split_last_mut().filter(|_| work.due[index]) else { return Ok(()) };
     factor_siblings(work, &task.children, below)?;
     let children: Vec<(&Task, &TaskFactor)> =
         task.children.iter().map(|&c| (&work.plan.tasks[c], &below[c - task.first_task])).collect();
-    factor_task(task, work.values, &children, own).map_err(|column| task.columns.start + column)
+    factor_task(task, work.values, &children, own)
 }
 
-fn factor_siblings(work: &Work<'_>, siblings: &[usize], factors: &mut [TaskFactor]) -> Result<(), u32> {
+fn factor_siblings(work: &Work<'_>, siblings: &[usize], factors: &mut [TaskFactor]) -> Result<(), Failure> {
     match siblings {
         [] => Ok(()),
         [only] => factor_subtree(work, *only, factors),
@@ -82,12 +92,17 @@ fn packed(n: usize) -> usize {
     n * (n + 1) / 2
 }
 
-fn factor_task(task: &Task, values: &[f64], below: &[(&Task, &TaskFactor)], own: &mut TaskFactor) -> Result<(), u32> {
+fn factor_task(
+    task: &Task,
+    values: &[f64],
+    below: &[(&Task, &TaskFactor)],
+    own: &mut TaskFactor,
+) -> Result<(), Failure> {
     let mut fronts =
         Fronts { task, place: vec![0; task.n_rows()], front: Vec::new(), left: Vec::new(), pending: Vec::new() };
     let mut at = 0;
     for (i, node) in task.nodes.iter().enumerate() {
-        let n = fronts.begin(node);
+        let n = fronts.begin(node)?;
         fronts.add_matrix(node, n, values);
         for _ in 0..node.n_updates {
             fronts.take_child(n);
@@ -98,11 +113,12 @@ fn factor_task(task: &Task, values: &[f64], below: &[(&Task, &TaskFactor)], own:
             }
         }
         let width = node.width as usize;
-        eliminate(&mut fronts.front, n, width).map_err(|column| node.first + column as u32)?;
+        eliminate(&mut fronts.front, n, width)
+            .map_err(|column| Failure::Pivot(task.columns.start + node.first + column as u32))?;
         let n_values = values_of_node(node);
         store(&fronts.front, n, node, &mut own.values[at..at + n_values]);
         at += n_values;
-        fronts.leave(i, width, n);
+        fronts.leave(i, width, n)?;
     }
     fronts.collect(&mut own.remainder);
     Ok(())
@@ -122,14 +138,15 @@ struct Fronts<'a> {
 
 impl Fronts<'_> {
     /// An empty front; returns its number of rows.
-    fn begin(&mut self, node: &Node) -> usize {
+    fn begin(&mut self, node: &Node) -> Result<usize, Failure> {
         let (width, rows) = (node.width as usize, self.task.rows_of(node));
         let n = width + rows.len();
         self.front.clear();
+        self.front.try_reserve(n * n).map_err(|_| Failure::TooLarge)?;
         self.front.resize(n * n, 0.0);
         (0..width).for_each(|c| self.place[node.first as usize + c] = c as u32);
         rows.iter().enumerate().for_each(|(i, &row)| self.place[row as usize] = (width + i) as u32);
-        n
+        Ok(n)
     }
 
     fn add_matrix(&mut self, node: &Node, n: usize, values: &[f64]) {
@@ -156,13 +173,15 @@ impl Fronts<'_> {
         extend_add(rows, remainder, |row| place[row as usize] as usize, |i, j| j * n + i, front);
     }
 
-    fn leave(&mut self, node: usize, width: usize, n: usize) {
+    fn leave(&mut self, node: usize, width: usize, n: usize) -> Result<(), Failure> {
         if width < n {
             self.pending.push(node);
         }
+        self.left.try_reserve(packed(n - width)).map_err(|_| Failure::TooLarge)?;
         for j in width..n {
             self.left.extend_from_slice(&self.front[j * n + j..(j + 1) * n]);
         }
+        Ok(())
     }
 
     /// Adds up what the roots of the task leave for the boundary.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use super::factor::{TaskFactor, factor};
+use super::factor::{Failure, TaskFactor, factor};
 use super::pattern::Pattern;
 use super::plan::{Plan, Task};
 use super::solve::solve;
@@ -66,8 +66,10 @@ impl System {
             self.due[t] = self.due[t] || changed[t] || is_above;
         }
         self.values.copy_from_slice(values);
-        factor(plan, &self.values, &self.due, &mut self.factors)
-            .map_err(|column| FactorError::NonPositivePivot { row: plan.order[column as usize] as usize })?;
+        factor(plan, &self.values, &self.due, &mut self.factors).map_err(|failure| match failure {
+            Failure::Pivot(column) => FactorError::NonPositivePivot { row: plan.order[column as usize] as usize },
+            Failure::TooLarge => FactorError::TooLarge,
+        })?;
         self.due.fill(false);
         Ok(())
     }

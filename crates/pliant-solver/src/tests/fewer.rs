@@ -190,3 +190,49 @@ fn tiny_and_huge_meshes_bend_like_others() {
         }
     }
 }
+
+#[test]
+fn an_iteration_that_gives_way_leaves_the_pose_and_the_next_one_goes_on_downwards() {
+    for minimizer in [Minimizer::LocalGlobal, Minimizer::Lbfgs] {
+        let mut solver = bent_bar(2);
+        solver.set_minimizer(minimizer);
+        assert!(solver.step_while(&mut || false).is_some(), "{minimizer:?}: the first after new targets");
+        let mut energy = solver.energy();
+        for round in 0..20 {
+            let (before, iteration) = (solver.positions(), solver.iteration);
+            let mut asked = 0;
+            let outcome = solver.step_while(&mut || {
+                asked += 1;
+                asked <= round % 3
+            });
+            let case = format!("{minimizer:?}, round {round}");
+            match outcome {
+                None => {
+                    assert!(round % 3 < 2, "{case}: it gave way unasked");
+                    assert_eq!(solver.positions(), before, "{case}");
+                    assert_eq!((solver.energy(), solver.iteration), (energy, iteration), "{case}");
+                }
+                Some(report) => {
+                    assert!(round % 3 == 2, "{case}: it did not give way");
+                    assert!(report.energy <= energy, "{case}: {} after {energy}", report.energy);
+                    energy = report.energy;
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_local_step_before_new_targets_are_reached_says_nothing_of_the_next() {
+    let mut solver = bent_bar(1);
+    solver.set_minimizer(Minimizer::Lbfgs);
+    (0..5).for_each(|_| {
+        solver.step();
+    });
+    let targets: Vec<DVec3> = held_positions(&solver).iter().map(|&p| p * 1.5).collect();
+    solver.set_targets(&targets).expect("finite");
+    solver.local_step();
+    let report = solver.step();
+    assert_eq!(report.relative_decrease, 1.0, "the energy with other targets is no lower or higher: {report:?}");
+    assert!(solver.step().relative_decrease >= 0.0);
+}

@@ -131,7 +131,7 @@ fn iterate(solver: &mut Solver, settings: Settings, times: &mut DeformTimes, con
         converged = is_settled(before, energy, settings.tolerance);
         energies.push(energy);
         console.progress(|| format!("iteration {}, energy {energy:.6e}", energies.len()));
-        if converged && (settings.tolerance > 0.0 || energy == 0.0) {
+        if converged && settings.tolerance > 0.0 {
             break;
         }
     }

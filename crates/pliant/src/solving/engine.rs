@@ -160,20 +160,26 @@ impl Engine {
         let (held, targets) = held_by(&wish.groups);
         if held != self.held {
             solver.set_held(&held)?;
-            solver.set_targets(&targets)?;
+            self.targets = positions_of(&held, &solver.positions());
             self.held = held;
             changed = true;
-        } else if targets != self.targets {
-            let leap = farthest(&self.targets, &targets) > JUMP_FRACTION * f64::from(wish.model.diagonal());
+        }
+        if targets != self.targets {
+            let leaps = !jumped && self.is_leap(wish, &targets);
             solver.set_targets(&targets)?;
-            if leap && !jumped {
+            if leaps {
                 solver.start(Start::Auto);
                 self.is_bent = true;
             }
+            self.targets = targets;
             changed = true;
         }
-        self.targets = targets;
         Ok(changed)
+    }
+
+    /// Whether targets are so far from those before that the pose is no good beginning.
+    fn is_leap(&self, wish: &SolveRequest, targets: &[DVec3]) -> bool {
+        farthest(&self.targets, targets) > JUMP_FRACTION * f64::from(wish.model.diagonal())
     }
 
     /// A new solver. It goes on where the old one was, unless the document's pose jumped.
@@ -184,7 +190,8 @@ impl Engine {
         }
         // The old factor goes before the new one comes.
         let old = self.solver.take().map(|solver| solver.positions());
-        let pose = match old.filter(|_| wish.epoch == self.wish.epoch) {
+        let goes_on = old.is_some() && wish.epoch == self.wish.epoch;
+        let pose = match old.filter(|_| goes_on) {
             Some(positions) => positions.into(),
             None => {
                 self.is_bent = !is_rest(&wish);
@@ -192,9 +199,14 @@ impl Engine {
             }
         };
         let (held, targets) = held_by(&wish.groups);
+        self.targets = positions_of(&held, &pose);
         self.energies.clear();
         match neighborhoods.and_then(|neighborhoods| self.build(neighborhoods, &wish, (&held, &targets), &pose)) {
-            Ok(solver) => {
+            Ok(mut solver) => {
+                if goes_on && self.is_leap(&wish, &targets) {
+                    solver.start(Start::Auto);
+                    self.is_bent = true;
+                }
                 self.solver = Some(solver);
                 self.go_on(&wish);
             }
@@ -238,11 +250,12 @@ impl Engine {
         self.state == SolveState::Iterating
     }
 
-    /// One iteration; returns how long it took.
-    pub fn step(&mut self) -> Duration {
-        let Some(solver) = &mut self.solver else { return Duration::ZERO };
+    /// One iteration; returns how long it took. None if `is_wanted` said no before anything moved, which it is not asked in
+    /// the first iteration after a change.
+    pub fn step(&mut self, is_wanted: &mut (dyn FnMut() -> bool + Send)) -> Option<Duration> {
+        let Some(solver) = &mut self.solver else { return Some(Duration::ZERO) };
         let start = Instant::now();
-        self.last = solver.step();
+        self.last = solver.step_while(is_wanted)?;
         (self.is_bent, self.is_pose_new) = (true, true);
         let took = start.elapsed();
         remember(&mut self.times_ms, TIMED_ITERATIONS, took.as_secs_f64() * 1e3);
@@ -250,7 +263,7 @@ impl Engine {
         if self.stillness.is_reached(self.last.energy) {
             self.state = SolveState::Settled;
         }
-        took
+        Some(took)
     }
 
     /// Where things stand, with the surface ready for the picture unless it is as last reported.
@@ -325,6 +338,10 @@ fn is_rest(wish: &SolveRequest) -> bool {
 fn holds_at_rest(wish: &SolveRequest) -> bool {
     let rest = wish.model.mesh.positions();
     wish.groups.iter().all(|group| group.vertices.iter().zip(group.targets()).all(|(v, p)| p == rest[v.index()]))
+}
+
+fn positions_of(vertices: &[VertexId], positions: &[DVec3]) -> Vec<DVec3> {
+    vertices.iter().map(|v| positions[v.index()]).collect()
 }
 
 fn farthest(a: &[DVec3], b: &[DVec3]) -> f64 {

@@ -71,8 +71,14 @@ fn run(inbox: &Mailbox<SolveRequest>, mut send: impl FnMut(SolveReport) + Send) 
                 pace.turned(begun.elapsed());
             }
             let Some(engine) = &mut engine else { return };
-            if engine.is_busy() && pace.stepped(engine.step()) == Next::GoOn && engine.is_busy() {
-                return;
+            if engine.is_busy() {
+                let about = newest.as_ref();
+                let mut is_wanted = || !inbox.has(|newer| about.is_none_or(|about| is_other_system(newer, about)));
+                // What an iteration on the way would find is of no use to a newer wish for another system.
+                let Some(took) = engine.step(&mut is_wanted) else { return };
+                if pace.stepped(took) == Next::GoOn && engine.is_busy() {
+                    return;
+                }
             }
             let begun = Instant::now();
             send(engine.report());
@@ -128,6 +134,15 @@ fn is_other_search(newer: &SolveRequest, older: &SolveRequest) -> bool {
         || newer.weights != older.weights
         || newer.rigidity != older.rigidity
         || newer.groups.is_empty()
+}
+
+/// Whether a newer wish is for other sizes or other held vertices, and not only for other targets, which the surface
+/// follows on the way.
+fn is_other_system(newer: &SolveRequest, older: &SolveRequest) -> bool {
+    is_other_search(newer, older)
+        || newer.epoch != older.epoch
+        || newer.groups.len() != older.groups.len()
+        || newer.groups.iter().zip(older.groups.iter()).any(|(new, old)| new.vertices != old.vertices)
 }
 
 fn bare_report(wish: &SolveRequest, state: SolveState) -> SolveReport {
@@ -223,6 +238,48 @@ mod tests {
     }
 
     #[test]
+    fn an_iteration_gives_way_to_other_handles_and_sizes_but_not_to_other_targets() {
+        let mut document = sheet(5);
+        hold(&mut document, 20);
+        let group = document.scene().groups[1].id;
+        let older = wish(&document);
+        let motion = glam::DAffine3::from_translation(DVec3::Z);
+        document.apply(Command::Move { group, motion }).expect("finite");
+        assert!(!is_other_system(&wish(&document), &older), "a drag");
+        let dragged = wish(&document);
+        document.apply(Command::Paint { values: vec![(VertexId(3), 2)] }).expect("a good size");
+        assert!(is_other_system(&wish(&document), &dragged), "a dab");
+        let painted = wish(&document);
+        hold(&mut document, 10);
+        assert!(is_other_system(&wish(&document), &painted), "a handle");
+    }
+
+    #[test]
+    fn the_first_iteration_after_a_change_is_taken_in_any_case_and_later_ones_give_way_without_a_trace() {
+        let mut document = sheet(30);
+        hold(&mut document, 960);
+        let group = document.scene().groups[1].id;
+        let motion = glam::DAffine3::from_translation(DVec3::Z);
+        document.apply(Command::Move { group, motion }).expect("finite");
+        let mut engine = None;
+        assert!(turn(&mut engine, wish(&document), &Mailbox::new()).0.is_continue());
+        let engine = engine.as_mut().expect("new");
+        assert!(engine.step(&mut || false).is_some(), "the first");
+        for parts_done in 0..3 {
+            let (mut before, mut asked) = (engine.positions(), 0);
+            let gave_way = engine.step(&mut || {
+                asked += 1;
+                asked <= parts_done
+            });
+            assert_eq!(gave_way.is_none(), parts_done < 2, "after {parts_done} parts");
+            if gave_way.is_some() {
+                before = engine.positions();
+            }
+            assert_eq!(engine.positions(), before, "after {parts_done} parts");
+        }
+    }
+
+    #[test]
     fn a_worker_that_is_dropped_gives_up_its_search() {
         let mut document = sheet(30);
         let inbox = Mailbox::new();
@@ -262,6 +319,29 @@ mod tests {
     }
 
     #[test]
+    fn a_new_handle_that_leaps_at_once_begins_anew_instead_of_folding_the_surface() {
+        // Another handle and its motion in one wish, as when something else kept the solver busy.
+        let lowest = |leap: bool| {
+            let mut document = sheet(12);
+            let mut engine = None;
+            assert!(turn(&mut engine, wish(&document), &Mailbox::new()).0.is_continue());
+            hold(&mut document, 168);
+            let group = document.scene().groups[1].id;
+            if !leap {
+                assert!(turn(&mut engine, wish(&document), &Mailbox::new()).0.is_continue());
+            }
+            // Half a turn about the corner that is held: with one handle and one anchor, no strain at all.
+            let motion = glam::DAffine3::from_rotation_z(std::f64::consts::PI);
+            document.apply(Command::Move { group, motion }).expect("finite");
+            assert!(turn(&mut engine, wish(&document), &Mailbox::new()).0.is_continue());
+            let engine = engine.as_mut().expect("new");
+            engine.step(&mut || true);
+            engine.report().energy
+        };
+        assert_eq!((lowest(true), lowest(false)), (0.0, 0.0));
+    }
+
+    #[test]
     fn sizes_everywhere_do_not_move_a_bent_surface() {
         let mut document = sheet(200); // 40,401 vertices: a new solver for r = 3
         hold(&mut document, 40_400);
@@ -271,7 +351,7 @@ mod tests {
         let inbox = Mailbox::new();
         let mut engine = None;
         assert!(turn(&mut engine, wish(&document), &inbox).0.is_continue());
-        engine.as_mut().expect("new").step();
+        engine.as_mut().expect("new").step(&mut || true);
         let before = engine.as_mut().expect("new").report();
         document.apply(Command::FillAll(3)).expect("a good size");
         assert!(turn(&mut engine, wish(&document), &inbox).0.is_continue());
