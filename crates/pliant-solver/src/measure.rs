@@ -2,6 +2,7 @@
 
 use crate::Solver;
 use crate::kernels::rotations::Ties;
+use crate::linear::ByFaer;
 
 /// A part of an iteration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,5 +48,20 @@ pub fn counts(solver: &Solver) -> Counts {
         edges: layout.n_edges(),
         runs: (0..layout.n_vertices()).map(|k| solver.rings.neighborhoods.runs(k).len()).sum(),
         factor: solver.system.n_values(),
+    }
+}
+
+/// The solver's system, factored and solved by faer alone in the same order.
+pub struct Faer(ByFaer);
+
+impl Faer {
+    /// None if faer cannot factor it.
+    pub fn new(solver: &Solver) -> Option<Faer> {
+        ByFaer::new(&solver.system).map(Faer)
+    }
+
+    /// Both triangular solves for three right-hand sides.
+    pub fn solve(&mut self) {
+        self.0.solve();
     }
 }

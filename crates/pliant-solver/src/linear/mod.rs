@@ -14,6 +14,8 @@
 //!
 //! Results do not depend on the number of threads: the tasks do not, and every sum is taken in a fixed order.
 
+#[cfg(feature = "measure")]
+mod beside;
 mod dense;
 mod dissection;
 mod elimination;
@@ -25,5 +27,7 @@ mod solve;
 mod symbolic;
 mod system;
 
+#[cfg(feature = "measure")]
+pub(crate) use beside::ByFaer;
 pub(crate) use pattern::Pattern;
 pub(crate) use system::{FactorError, System};

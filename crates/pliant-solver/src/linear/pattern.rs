@@ -9,8 +9,8 @@ use super::symbolic::Supernodes;
 
 /// Lower triangle of the mesh Laplacian by columns, diagonal first, and the plan of its factorization.
 pub(crate) struct Pattern {
-    columns: Vec<u32>,
-    rows: Vec<u32>,
+    pub(super) columns: Vec<u32>,
+    pub(super) rows: Vec<u32>,
     pub(super) plan: Result<Plan, OutOfRange>,
 }
 

@@ -53,6 +53,12 @@ impl System {
         self.factors.iter().map(|factor| factor.values.len()).sum()
     }
 
+    /// The pattern and the values that were factored last.
+    #[cfg(feature = "measure")]
+    pub(super) fn matrix(&self) -> (&Pattern, &[f64]) {
+        (&self.pattern, &self.values)
+    }
+
     /// Factors new values: those tasks whose entries changed since the last time, and the ones above them. After an error
     /// the factor is unusable until the next success.
     pub(crate) fn factor(&mut self, values: &[f64]) -> Result<(), FactorError> {

@@ -4,8 +4,9 @@ use super::clock::{timed, timed_median};
 use super::scene::{Scene, analyze, solver};
 use super::stages::name;
 use super::table::{Table, digits, ms};
-use pliant_solver::measure::{Counts, Kernel, counts, run};
+use pliant_solver::measure::{Counts, Faer, Kernel, counts, run};
 use pliant_solver::{Rigidity, SolveError, Solver};
+use std::time::Duration;
 
 /// Iterations before anything is timed.
 const WARM: usize = 5;
@@ -25,7 +26,18 @@ neighborhoods (none at r = 1) and the values of L:
 /// The table, a row for every scene, r and kernel; `bandwidth` in bytes a second.
 pub(crate) fn table(scenes: &[(Scene, Vec<u16>)], bandwidth: f64) -> Result<String, SolveError> {
     let header = [
-        "mesh", "vertices", "r", "runs / n", "L / n", "gradient", "of floor", "solve", "of floor", "local", "of floor",
+        "mesh",
+        "vertices",
+        "r",
+        "runs / n",
+        "L / n",
+        "gradient",
+        "of floor",
+        "solve",
+        "of floor",
+        "faer / ours",
+        "local",
+        "of floor",
     ];
     let mut table = Table::new(1, &header);
     for (scene, sizes) in scenes {
@@ -43,6 +55,10 @@ pub(crate) fn table(scenes: &[(Scene, Vec<u16>)], bandwidth: f64) -> Result<Stri
                 let time = kernel_time(&mut solver, kernel);
                 let share = bytes(kernel, counts) / bandwidth / time.as_secs_f64();
                 cells.extend([ms(time), format!("{:.0} %", 100.0 * share)]);
+                if kernel == Kernel::Solve {
+                    // The structure, and so the time, is the same for every r.
+                    cells.push(if r == 1 { by_faer(&solver, time) } else { String::new() });
+                }
             }
             table.row(name(scene).into_iter().chain(cells));
         }
@@ -50,13 +66,22 @@ pub(crate) fn table(scenes: &[(Scene, Vec<u16>)], bandwidth: f64) -> Result<Stri
     Ok(format!(
         "Milliseconds of the parts of an iteration, and how much of each is the floor: the bytes that must move at least, \
          at the measured bandwidth of two threads. Small meshes stay in the cache and may beat it. *Gradient*: Q and the \
-         pull on every vertex. *Solve*: both triangles, three right-hand sides. *Local*: S, rotations, energy.\n\n\
+         pull on every vertex. *Solve*: both triangles, three right-hand sides; *faer / ours*: how many times longer faer's own solve \
+         takes, on the same matrix in the same order. *Local*: S, rotations, energy.\n\n\
          {FORMULAS}{}",
         table.into_text()
     ))
 }
 
-fn kernel_time(solver: &mut Solver, kernel: Kernel) -> std::time::Duration {
+/// How many times longer faer's own solve takes.
+fn by_faer(solver: &Solver, ours: Duration) -> String {
+    match Faer::new(solver) {
+        Some(mut faer) => digits(timed_median(|| timed(|| faer.solve()).1).as_secs_f64() / ours.as_secs_f64()),
+        None => "–".to_owned(),
+    }
+}
+
+fn kernel_time(solver: &mut Solver, kernel: Kernel) -> Duration {
     timed_median(|| {
         if kernel == Kernel::Solve {
             // What was solved would be solved again and again, and shrink.
