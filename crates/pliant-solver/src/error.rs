@@ -106,3 +106,45 @@ pub enum SolveError {
         what: &'static str,
     },
 }
+
+/// Why rigidity could not be learned. Nothing has changed then.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum LearnError {
+    /// The range of r is empty or out of bounds.
+    #[error("r from {first} to {last} cannot be learned; give a range within 1 to {max}")]
+    BadRange {
+        /// The first r given.
+        first: u16,
+        /// The last r given.
+        last: u16,
+        /// The largest r there is.
+        max: u16,
+    },
+    /// The neighborhoods or the table need more memory than is reasonable.
+    #[error(
+        "r up to {last} on {n_vertices} vertices needs too much memory; learn with a smaller r or on a smaller mesh"
+    )]
+    TooLarge {
+        /// The last r given.
+        last: u16,
+        /// Number of vertices of the mesh.
+        n_vertices: usize,
+    },
+    /// A pose does not have one position per vertex.
+    #[error("the pose has {got} vertices, but the reference has {expected}")]
+    WrongLength {
+        /// Number of positions given.
+        got: usize,
+        /// Number of vertices of the reference.
+        expected: usize,
+    },
+    /// A position is NaN, infinite or too large to be squared.
+    #[error("vertex {vertex} of the pose has a coordinate that is not a number below {LARGEST_COORDINATE:e}")]
+    NotFinite {
+        /// The first such vertex.
+        vertex: u32,
+    },
+    /// No pose has been added.
+    #[error("no pose to learn from; add at least one besides the reference")]
+    NoPoses,
+}

@@ -29,6 +29,18 @@
 //!   system whose matrix is factored once;
 //! - *local* (3.2.2): R_k = argmax tr(R S_k) over the rotations.
 //!
+//! # Learning r from poses (3.4)
+//! Where a surface is given in several poses, the r of each vertex can be found: as large as its surroundings were rigid.
+//! [`PoseLearner`] takes one pose after the other, and [`EnergyTable`] keeps, for every vertex k and r, the mean over the
+//! poses m of
+//!
+//! ```text
+//! Ẽ(k, r, m) = min_R Σ_{(i,j) ∈ N(k, r)} w_ij ‖(p_i^m − p_j^m) − R (p_i − p_j)‖² / A(k, r)
+//! ```
+//!
+//! with A(k, r) the mixed Voronoi areas of all vertices within r edges of k. Then r_k = argmin Ẽ(k, r) + ω (r_max − r),
+//! for any ω without looking at the poses again ([`EnergyTable::learn`]). [`Rigidity::smoothed`] removes specks.
+//!
 //! # Differences from the paper
 //! - Equations (4) and (5) print a factor 2 on the left side only, with which R = I would shrink the rest pose by half.
 //!   The line above is the zero gradient of (1).
@@ -39,6 +51,10 @@
 //!   previous rotation decides.
 //! - Besides the two alternating steps there is L-BFGS on p', preconditioned by the factored system: the same minima in
 //!   several times fewer iterations ([`Minimizer`]). The alternating steps are the default of [`Solver`].
+//! - With learning, ω can be chosen from the energies ([`EnergyTable::auto_omega`]): the paper's 0.3 makes nearly
+//!   everything stiff with the formulas as printed, on all poses that were tried. Weights are those of the [`Analysis`]; the
+//!   raw ones may make energies negative, which then count as they are. Where A(k, r) = 0, energies are 0. Of equally
+//!   good r the larger one is taken.
 //! - Iterations begin from the current pose ([`Start::Keep`]) or from the best of several candidates ([`Start::Auto`]);
 //!   [`Start::Rest`] is the paper's beginning.
 //!
@@ -71,6 +87,8 @@
 //! | [`Mesh`] | the file | O(n log n) |
 //! | [`Analysis`] | mesh and kind of weights | fill-reducing order, symbolic factorization |
 //! | [`Neighborhoods`] | r | a search around every vertex with r > 1 |
+//! | [`PoseLearner`] | the range of r | a search around every vertex; a microsecond per vertex and pose for each pose |
+//! | [`EnergyTable`] | as long as wanted; any ω and r within | reading it once for each ω |
 //! | [`Solver`] | as long as wanted; r and held vertices can be changed | numeric factorization |
 //!
 //! Nothing here reads files or clocks. Loops over many elements are shared among rayon's threads, and results do not
@@ -82,6 +100,7 @@ mod held;
 mod ids;
 mod kernels;
 mod lbfgs;
+mod learning;
 mod linear;
 mod matrix;
 #[cfg(feature = "measure")]
@@ -101,9 +120,10 @@ mod tests;
 pub use analysis::Analysis;
 pub use analysis::topology::Defects;
 pub use analysis::weights::Weights;
-pub use error::{MeshError, RigidityError, SolveError};
+pub use error::{LearnError, MeshError, RigidityError, SolveError};
 pub use held::LooseComponents;
 pub use ids::VertexId;
+pub use learning::{EnergyTable, Learned, PoseLearner};
 pub use mesh::{LARGEST_COORDINATE, Mesh};
 pub use rigidity::Rigidity;
 pub use rings::neighborhoods::Neighborhoods;

@@ -13,6 +13,8 @@ pub(crate) enum Failure {
     Stopped { program: String },
     #[error("the solver refused what is to be measured: {0}")]
     Solve(#[from] pliant_solver::SolveError),
+    #[error("the poses to learn from were refused: {0}")]
+    Learn(#[from] pliant_solver::LearnError),
     #[error("sample {name} could not be written: {source}")]
     Sample { name: &'static str, source: pliant_meshfile::SaveError },
     #[error("{n} of the files in assets/ are not what `cargo xtask assets` makes (first: {first}); run it and commit what changed", n = .0.len(), first = .0[0])]

@@ -12,11 +12,11 @@
 
 pub(crate) mod energy;
 pub(crate) mod iteration;
-mod lanes;
+pub(crate) mod lanes;
 pub(crate) mod nines;
 pub(crate) mod parallel;
 pub(crate) mod quad;
 pub(crate) mod rotations;
 pub(crate) mod sums;
-mod turning;
+pub(crate) mod turning;
 pub(crate) mod wide;

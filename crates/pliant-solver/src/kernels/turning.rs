@@ -72,11 +72,8 @@ impl Lot {
         (eights, ninths): (&mut [Eight], &mut [f64]),
     ) -> f64 {
         let n = turns.len().min(LOT);
-        self.newton(simd);
+        self.turn(simd, ties, n);
         for lane in 0..n {
-            if self.solved[lane] == 0.0 {
-                self.solve_alone(lane, ties);
-            }
             turns[lane] = DQuat::from_array(lane_of(&self.q, lane));
             let Nine { eight, ninth } = Nine::from_entries(lane_of(&self.r, lane));
             (eights[lane], ninths[lane]) = (eight, ninth);
@@ -87,6 +84,17 @@ impl Lot {
             (0..8).for_each(|l| sums[l] += eight[l]);
         }
         sums.iter().sum()
+    }
+
+    /// Solves the first `n` lanes, in place.
+    #[inline(always)]
+    pub(crate) fn turn<S: Simd>(&mut self, simd: S, ties: Ties, n: usize) {
+        self.newton(simd);
+        for lane in 0..n {
+            if self.solved[lane] == 0.0 {
+                self.solve_alone(lane, ties);
+            }
+        }
     }
 
     #[cold]

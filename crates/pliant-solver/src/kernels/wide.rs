@@ -62,6 +62,13 @@ pub(crate) trait Wide: Simd {
     /// a b + c, rounded once where the processor can.
     fn fma8(self, a: Self::Eight, b: Self::Eight, c: Self::Eight) -> Self::Eight;
 
+    /// Two fours side by side.
+    fn join(self, low: Self::Four, high: Self::Four) -> Self::Eight;
+    /// In each half, its number `I` four times.
+    fn each<const I: usize>(self, a: Self::Eight) -> Self::Eight;
+    /// In each half, [y z x w].
+    fn next(self, a: Self::Eight) -> Self::Eight;
+
     /// [x y z x | x y z y].
     fn rows(self, xyz: Self::Four) -> Self::Eight;
     /// [x x x z | y y y z].
@@ -147,6 +154,21 @@ impl Wide for Scalar {
     #[inline(always)]
     fn mul8(self, a: [f64; 8], b: [f64; 8]) -> [f64; 8] {
         std::array::from_fn(|l| a[l] * b[l])
+    }
+
+    #[inline(always)]
+    fn join(self, [a, b, c, d]: [f64; 4], [e, f, g, h]: [f64; 4]) -> [f64; 8] {
+        [a, b, c, d, e, f, g, h]
+    }
+
+    #[inline(always)]
+    fn each<const I: usize>(self, a: [f64; 8]) -> [f64; 8] {
+        std::array::from_fn(|l| a[l / 4 * 4 + I])
+    }
+
+    #[inline(always)]
+    fn next(self, [x, y, z, w, a, b, c, d]: [f64; 8]) -> [f64; 8] {
+        [y, z, x, w, b, c, a, d]
     }
 
     #[inline(always)]
@@ -262,6 +284,42 @@ mod x86 {
         }
 
         #[inline(always)]
+        fn join(self, low: __m256d, high: __m256d) -> [__m256d; 2] {
+            [low, high]
+        }
+
+        #[inline(always)]
+        fn each<const I: usize>(self, a: [__m256d; 2]) -> [__m256d; 2] {
+            let avx2 = self.avx2;
+            // Not a map: closures are not compiled for the processor.
+            let [low, high] = a;
+            match I {
+                0 => [
+                    avx2._mm256_permute4x64_pd::<0b00_00_00_00>(low),
+                    avx2._mm256_permute4x64_pd::<0b00_00_00_00>(high),
+                ],
+                1 => [
+                    avx2._mm256_permute4x64_pd::<0b01_01_01_01>(low),
+                    avx2._mm256_permute4x64_pd::<0b01_01_01_01>(high),
+                ],
+                2 => [
+                    avx2._mm256_permute4x64_pd::<0b10_10_10_10>(low),
+                    avx2._mm256_permute4x64_pd::<0b10_10_10_10>(high),
+                ],
+                _ => [
+                    avx2._mm256_permute4x64_pd::<0b11_11_11_11>(low),
+                    avx2._mm256_permute4x64_pd::<0b11_11_11_11>(high),
+                ],
+            }
+        }
+
+        #[inline(always)]
+        fn next(self, [low, high]: [__m256d; 2]) -> [__m256d; 2] {
+            let avx2 = self.avx2;
+            [avx2._mm256_permute4x64_pd::<0b11_00_10_01>(low), avx2._mm256_permute4x64_pd::<0b11_00_10_01>(high)]
+        }
+
+        #[inline(always)]
         fn rows(self, xyz: __m256d) -> [__m256d; 2] {
             let avx2 = self.avx2;
             [avx2._mm256_permute4x64_pd::<0b00_10_01_00>(xyz), avx2._mm256_permute4x64_pd::<0b01_10_01_00>(xyz)]
@@ -321,6 +379,26 @@ mod x86 {
         }
 
         #[inline(always)]
+        fn join(self, low: __m256d, high: __m256d) -> __m512d {
+            self.avx512f._mm512_insertf64x4::<1>(self.avx512f._mm512_castpd256_pd512(low), high)
+        }
+
+        #[inline(always)]
+        fn each<const I: usize>(self, a: __m512d) -> __m512d {
+            match I {
+                0 => self.avx512f._mm512_permutex_pd::<0b00_00_00_00>(a),
+                1 => self.avx512f._mm512_permutex_pd::<0b01_01_01_01>(a),
+                2 => self.avx512f._mm512_permutex_pd::<0b10_10_10_10>(a),
+                _ => self.avx512f._mm512_permutex_pd::<0b11_11_11_11>(a),
+            }
+        }
+
+        #[inline(always)]
+        fn next(self, a: __m512d) -> __m512d {
+            self.avx512f._mm512_permutex_pd::<0b11_00_10_01>(a)
+        }
+
+        #[inline(always)]
         fn rows(self, xyz: __m256d) -> __m512d {
             let order = cast([0u64, 1, 2, 0, 0, 1, 2, 1]);
             self.avx512f._mm512_permutexvar_pd(order, self.avx512f._mm512_castpd256_pd512(xyz))
@@ -351,7 +429,7 @@ mod tests {
     struct Everything;
 
     impl Kernel for Everything {
-        type Output = ([[f64; 4]; 7], [[f64; 8]; 8]);
+        type Output = ([[f64; 4]; 7], [[f64; 8]; 13]);
 
         #[inline(always)]
         fn run<W: Wide>(self, wide: W) -> Self::Output {
@@ -361,9 +439,21 @@ mod tests {
             let [x, y, z, _] = wide.array4(wide.folded(d, b));
             let sign = wide.xor4(a, wide.four([-0.0, 0.0, -0.0, 0.0]));
             let fours = [wide.add4(a, b), wide.sub4(a, b), wide.mul4(a, b), wide.fma4(a, b, c), sign, c];
-            let eights =
-                [wide.add8(d, e), wide.sub8(d, e), wide.mul8(d, e), wide.fma8(d, e, d), wide.rows(b), wide.splat8(3.0)];
-            let (mut four, mut eight) = ([[x, y, z, 0.0]; 7], [wide.array8(wide.columns(b)); 8]);
+            let eights = [
+                wide.add8(d, e),
+                wide.sub8(d, e),
+                wide.mul8(d, e),
+                wide.fma8(d, e, d),
+                wide.rows(b),
+                wide.splat8(3.0),
+                wide.join(a, b),
+                wide.each::<0>(d),
+                wide.each::<1>(d),
+                wide.each::<2>(d),
+                wide.each::<3>(d),
+                wide.next(d),
+            ];
+            let (mut four, mut eight) = ([[x, y, z, 0.0]; 7], [wide.array8(wide.columns(b)); 13]);
             for (out, value) in four.iter_mut().zip(fours) {
                 *out = wide.array4(value);
             }
@@ -378,6 +468,8 @@ mod tests {
     fn all_kinds_of_processors_compute_the_same() {
         let plain = Everything.run(Scalar::new());
         assert_eq!(plain.0[6][..3], [1.0 + 5.0 + 4.0, 2.0 + 6.0 + 8.0, 3.0 + 7.0 + 11.0], "folded");
+        assert_eq!(plain.1[8], [2.0, 2.0, 2.0, 2.0, 6.0, 6.0, 6.0, 6.0], "each");
+        assert_eq!(plain.1[11], [2.0, 3.0, 1.0, 4.0, 6.0, 7.0, 5.0, 8.0], "next");
         assert_eq!(dispatch(Everything), plain, "the best of this processor");
         #[cfg(target_arch = "x86_64")]
         if let Some(wide) = pulp::x86::V3::try_new() {

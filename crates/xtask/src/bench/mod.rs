@@ -6,6 +6,7 @@
 //! | `scene` | meshes with handles |
 //! | `stages` | every stage of the solver by size and r |
 //! | `kernels` | the parts of an iteration beside the memory's floor |
+//! | `learning` | rigidity from poses |
 //! | `outside` | an iteration as anyone can time it, by the command line |
 //! | `descent` | how fast the energy falls, from rest and in a drag |
 //! | `peers` | libigl and Open3D beside it, by `tools/peers.py` |
@@ -15,6 +16,7 @@
 mod clock;
 mod descent;
 mod kernels;
+mod learning;
 mod machine;
 mod outside;
 mod peers;
@@ -122,6 +124,7 @@ fn measure(options: &Options, program: Option<&Path>) -> Result<String, Failure>
     let jumps: Vec<_> = both.iter().flat_map(|&scene| [(scene, 1), (scene, 10)]).collect();
     section("From rest", &descent::from_rest(&jumps, most)?);
     section("A drag", &dragged(options.quick)?);
+    section("Learning", &learning::table(&bodies(&CUTS))?);
     if let Some(program) = program.filter(|_| options.peers) {
         section("Beside others", &peers::tables(program, &both, folder.path(), most)?);
     }
@@ -169,7 +172,7 @@ mod tests {
     #[test]
     fn the_quick_run_writes_every_table() {
         let page = measure(&Options { quick: true, ..Options::default() }, None).expect("measured");
-        for title in ["What was measured", "Stages", "Kernels", "From rest", "A drag"] {
+        for title in ["What was measured", "Stages", "Kernels", "From rest", "A drag", "Learning"] {
             let section = page.split("## ").find(|section| section.starts_with(title));
             let section = section.unwrap_or_else(|| panic!("no section {title} in\n{page}"));
             assert!(title == "What was measured" || section.contains("|\n| "), "no table in\n{section}");
