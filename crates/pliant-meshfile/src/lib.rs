@@ -13,6 +13,8 @@
 //! **Trust.** No input panics, hangs, reserves memory it does not fill, or makes the crate open a file outside the
 //! model's own folder. Sizes are compared with what is really there before anything is reserved.
 //!
+//! [`poses`] are further shapes of a mesh, from other files or from what a file holds besides its shape.
+//!
 //! A format is one variant of [`Format`], one folder under `formats` and one line in its table.
 
 mod budget;
@@ -24,6 +26,7 @@ mod generated;
 mod mesh_file;
 mod normals;
 mod polygon;
+pub mod poses;
 mod rigidity;
 mod shape;
 #[cfg(test)]
@@ -32,7 +35,7 @@ mod weld;
 
 pub use error::{Fault, OpenError, SaveError, Warning};
 pub use format::Format;
-pub use mesh_file::{MeshFile, from_bytes, open};
+pub use mesh_file::{MeshFile, from_bytes, open, side_files};
 pub use rigidity::read_rigidity;
 pub use shape::Part;
 pub use weld::Weld;

@@ -1,10 +1,11 @@
 //! A mesh file as opened, and the ways in and out.
 
-use crate::formats::{Before, Edit, Input, Opened, Output, Source, entry};
+use crate::formats::{Before, Edit, Input, Motion, Opened, Output, Source, entry};
 use crate::generated::Generated;
 use crate::shape::{NO_MATERIAL, Part};
 use crate::{Fault, Format, OpenError, SaveError, Warning, Weld, budget, files, rigidity};
 use glam::{DVec3, Vec2};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -68,6 +69,18 @@ fn read(input: Input<'_>, format: Format) -> Result<MeshFile, Fault> {
     Ok(MeshFile::new(format, opened))
 }
 
+/// The files that [`MeshFile::save`] may write beside a mesh file of this name: whatever else lies there by these names
+/// is lost.
+pub fn side_files(mesh: &Path) -> Vec<PathBuf> {
+    let Some(format) = Format::of(mesh) else { return Vec::new() };
+    let entry = entry(format);
+    let mut files = (entry.beside)(mesh);
+    if entry.rigidity_in_sidecar {
+        files.push(rigidity::sidecar_of(mesh));
+    }
+    files
+}
+
 /// A sidecar that is broken is an error, since saving over it would lose it.
 fn read_sidecar(file: &mut MeshFile, mesh: &Path) -> Result<(), OpenError> {
     let sidecar = rigidity::sidecar_of(mesh);
@@ -127,6 +140,21 @@ impl MeshFile {
             source: Arc::new(Generated),
         };
         MeshFile::new(Format::Glb, opened)
+    }
+
+    /// Triangles that polygons of more than three corners were cut into, where the file has polygons.
+    pub(crate) fn polygons(&self) -> &[Range<u32>] {
+        self.source.polygons()
+    }
+
+    /// How many poses the file holds besides its shape at most, told without reading them.
+    pub(crate) fn n_poses(&self, frames: usize) -> usize {
+        self.source.n_poses(frames)
+    }
+
+    /// The poses the file holds besides its shape, if it holds any, with so many frames of each animation.
+    pub(crate) fn motion(&self, frames: usize) -> Result<Option<Box<dyn Motion>>, Fault> {
+        self.source.clone().motion(frames)
     }
 
     /// Rest positions of the surface points, in world space.

@@ -7,4 +7,5 @@ mod gltf_saving;
 mod mutation;
 mod obj_reading;
 mod obj_saving;
+mod poses;
 mod support;

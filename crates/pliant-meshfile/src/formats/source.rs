@@ -1,9 +1,10 @@
 //! The words between a format and the rest of the crate.
 
 use crate::shape::{Part, Shape};
-use crate::{Format, SaveError, Warning, Weld};
+use crate::{Fault, Format, SaveError, Warning, Weld};
 use glam::{DVec3, Vec2};
 use std::fmt::Debug;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -34,6 +35,47 @@ pub(crate) trait Source: Debug + Send + Sync {
     fn rewrite(&self, edit: &Edit<'_>, to: &Path, format: Format) -> Option<Result<Output, SaveError>>;
     /// The edited mesh without its file, for other formats.
     fn shape(&self, edit: &Edit<'_>) -> Shape;
+
+    /// Triangles that polygons of more than three corners were cut into, ascending; none in formats of triangles.
+    ///
+    /// Where a polygon is cut depends on its shape, so that two poses of one mesh can differ there.
+    fn polygons(&self) -> &[Range<u32>] {
+        &[]
+    }
+
+    /// How many poses [`Source::motion`] gives at most, told without reading them.
+    fn n_poses(&self, _frames: usize) -> usize {
+        0
+    }
+
+    /// The poses that the file holds besides its shape, with so many frames of each animation; none in formats that
+    /// hold one shape.
+    fn motion(self: Arc<Self>, _frames: usize) -> Result<Option<Box<dyn Motion>>, Fault> {
+        Ok(None)
+    }
+}
+
+/// Poses that a file holds besides its shape: morph targets, frames of animations.
+pub(crate) trait Motion: Debug + Send {
+    /// How many there are.
+    fn n_poses(&self) -> usize;
+    /// Whether pose `index` is a frame of an animation, which neighbors resemble.
+    fn is_frame(&self, index: usize) -> bool;
+    /// What the file calls pose `index`, from 0.
+    fn name(&self, index: usize) -> String;
+    /// World position of every file vertex in pose `index`. Finite. None for a pose that is passed over: it shows nothing,
+    /// which the warnings say, or what is wrong with it was said of a pose before.
+    fn pose(&mut self, index: usize) -> Result<Option<Vec<DVec3>>, Broken>;
+    /// What was passed over or changed so far, each said once.
+    fn warnings(&mut self) -> Vec<Warning>;
+}
+
+/// A pose, or an animation with all its poses, that is broken.
+#[derive(Debug)]
+pub(crate) struct Broken {
+    /// What the file calls it.
+    pub(crate) what: String,
+    pub(crate) fault: Fault,
 }
 
 /// A mesh as it was opened.

@@ -82,8 +82,23 @@ pub(super) struct Accessor<'a> {
 }
 
 impl<'a> Data<'a> {
-    /// Checks an accessor that `place` uses.
+    /// Checks an accessor of numbers or vectors.
     pub(super) fn accessor(self, index: usize) -> Result<Accessor<'a>, Fault> {
+        let types = [("SCALAR", 1), ("VEC2", 2), ("VEC3", 3), ("VEC4", 4)];
+        self.accessor_of(index, &types, "SCALAR, VEC2, VEC3 or VEC4")
+    }
+
+    /// Checks an accessor of matrices, 16 numbers each, column by column.
+    pub(super) fn matrices(self, index: usize) -> Result<Accessor<'a>, Fault> {
+        let checked = self.accessor_of(index, &[("MAT4", 16)], "MAT4")?;
+        // Columns of shorter types are padded, which the format allows for no matrix of vertices.
+        if checked.component != Component::F32 {
+            return Err(Fault::at(format!("accessor {index}"), "matrices are not floating-point numbers"));
+        }
+        Ok(checked)
+    }
+
+    fn accessor_of(self, index: usize, types: &[(&str, u64)], words: &str) -> Result<Accessor<'a>, Fault> {
         let place = format!("accessor {index}");
         let accessors = json::list(self.document, "accessors")?;
         let accessor = accessors
@@ -92,13 +107,9 @@ impl<'a> Data<'a> {
         let code = json::number(accessor, "componentType", &place)?.unwrap_or(0);
         let component = Component::of(code)
             .ok_or_else(|| Fault::at(place.as_str(), format!("component type {code} is not known")))?;
-        let width = match accessor.get("type").and_then(Value::as_str) {
-            Some("SCALAR") => 1,
-            Some("VEC2") => 2,
-            Some("VEC3") => 3,
-            Some("VEC4") => 4,
-            _ => return Err(Fault::at(place, "its type is not SCALAR, VEC2, VEC3 or VEC4")),
-        };
+        let named = accessor.get("type").and_then(Value::as_str);
+        let width = types.iter().find(|(name, _)| Some(*name) == named);
+        let width = width.ok_or_else(|| Fault::at(place.as_str(), format!("its type is not {words}")))?.1;
         let count = json::number(accessor, "count", &place)?.unwrap_or(0);
         budget::check("elements in an accessor", count, budget::CORNERS)?;
         let size = component.size() * width;
@@ -185,6 +196,19 @@ impl Accessor<'_> {
         self.dense.is_some()
     }
 
+    /// The same numbers as fractions, when they are of a short type: those of weights and of animations are never meant
+    /// as they stand, and not every writer sets the flag.
+    pub(super) fn in_fractions(mut self) -> Self {
+        self.normalized = !matches!(self.component, Component::U32 | Component::F32);
+        self
+    }
+
+    /// The same without what is behind the first `n` elements.
+    pub(super) fn first(mut self, n: usize) -> Self {
+        self.count = self.count.min(n);
+        self
+    }
+
     /// How many elements it took to check the accessor.
     pub(super) fn n_checked(&self) -> usize {
         self.sparse.as_ref().map_or(0, |(targets, _)| targets.len())
@@ -204,7 +228,7 @@ impl Accessor<'_> {
         };
         if let Some((targets, values)) = &self.sparse {
             let mut element = Vec::with_capacity(self.width);
-            for (i, &target) in targets.iter().enumerate() {
+            for (i, &target) in targets.iter().enumerate().filter(|&(_, &target)| (target as usize) < self.count) {
                 element.clear();
                 self.push_element(&values.bytes[i * values.stride..], &mut element);
                 let at = target as usize * self.width;

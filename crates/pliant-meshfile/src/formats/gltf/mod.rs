@@ -11,6 +11,7 @@ mod builder;
 mod container;
 mod export;
 mod json;
+mod motion;
 mod nodes;
 mod read;
 mod relocate;
@@ -21,11 +22,12 @@ mod source;
 pub(super) use export::write;
 pub(super) use read::read;
 
-use super::source::{Edit, Output, Source};
+use super::source::{Edit, Motion, Output, Source};
 use crate::shape::Shape;
-use crate::{Format, SaveError};
+use crate::{Fault, Format, SaveError};
 use source::GltfSource;
 use std::path::Path;
+use std::sync::Arc;
 
 impl Source for GltfSource {
     fn rewrite(&self, edit: &Edit<'_>, to: &Path, format: Format) -> Option<Result<Output, SaveError>> {
@@ -34,5 +36,13 @@ impl Source for GltfSource {
 
     fn shape(&self, edit: &Edit<'_>) -> Shape {
         shape::shape(self, edit)
+    }
+
+    fn n_poses(&self, frames: usize) -> usize {
+        motion::n_poses(self, frames)
+    }
+
+    fn motion(self: Arc<Self>, frames: usize) -> Result<Option<Box<dyn Motion>>, Fault> {
+        motion::of(self, frames)
     }
 }

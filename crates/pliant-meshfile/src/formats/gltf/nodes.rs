@@ -5,19 +5,29 @@ use crate::{Fault, Warning, budget};
 use glam::{DMat4, DQuat, DVec3, DVec4};
 use serde_json::Value;
 
-/// World transform of each mesh: that of the first node of the default scene that uses it, of the first node anywhere
-/// for a mesh outside that scene, and none for a mesh that no node uses or that a skin carries.
-pub(super) fn mesh_transforms(
+/// Where a mesh stands.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Placement {
+    /// The node that places it; none for a mesh that no node uses.
+    pub(super) node: Option<usize>,
+    /// World transform of that node, or the identity where it is not used: for skins, and for nodes that flatten.
+    pub(super) transform: DMat4,
+    /// Whether the transform is left aside because it flattens.
+    pub(super) flattened: bool,
+}
+
+/// The placement of each mesh: by the first node of the default scene that uses it, by the first node anywhere for a
+/// mesh outside that scene, and none for a mesh that no node uses or that a skin carries.
+pub(super) fn placements(
     document: &Value,
     n_meshes: usize,
     warnings: &mut Vec<Warning>,
-) -> Result<Vec<DMat4>, Fault> {
+) -> Result<Vec<Placement>, Fault> {
     let nodes = json::list(document, "nodes")?;
-    budget::check("nodes", nodes.len() as u64, budget::NODES)?;
-    let (children, parents) = edges(nodes)?;
-    let world = world_transforms(nodes, &children, &parents)?;
-    let mut of_mesh: Vec<Option<DMat4>> = vec![None; n_meshes];
-    for node in scene_order(document, &children, nodes.len())?.into_iter().chain(0..nodes.len()) {
+    let graph = Graph::new(nodes)?;
+    let world = graph.world_transforms()?;
+    let mut of_mesh: Vec<Option<Placement>> = vec![None; n_meshes];
+    for node in scene_order(document, &graph.children, nodes.len())?.into_iter().chain(0..nodes.len()) {
         let place = format!("node {node}");
         let Some(mesh) = json::reference(&nodes[node], "mesh", &place, "mesh", n_meshes)? else { continue };
         if of_mesh[mesh].is_some() {
@@ -26,76 +36,158 @@ pub(super) fn mesh_transforms(
         // A skin places its mesh by its joints alone.
         let skinned = nodes[node].get("skin").is_some();
         let transform = if skinned { DMat4::IDENTITY } else { world[node] };
-        let invertible = transform.is_finite() && transform.inverse().is_finite() && transform.determinant() != 0.0;
-        if !invertible {
+        let flattened = flattens(transform);
+        if flattened {
             warnings.push(Warning(format!("node {node} flattens its mesh, which is shown without its transform")));
         }
-        of_mesh[mesh] = Some(if invertible { transform } else { DMat4::IDENTITY });
+        let transform = if flattened { DMat4::IDENTITY } else { transform };
+        of_mesh[mesh] = Some(Placement { node: Some(node), transform, flattened });
     }
-    Ok(of_mesh.into_iter().map(|transform| transform.unwrap_or(DMat4::IDENTITY)).collect())
+    let nowhere = Placement { node: None, transform: DMat4::IDENTITY, flattened: false };
+    Ok(of_mesh.into_iter().map(|placement| placement.unwrap_or(nowhere)).collect())
 }
 
-type Edges = (Vec<Vec<usize>>, Vec<Option<usize>>);
+/// Of the volume that the longest axis would give, what counts as none: products of transforms that flatten leave the
+/// rounding of double precision, and a mesh a millionth as thick as wide in two directions is no surface either.
+const FLAT: f64 = 1e-12;
 
-/// Children and parent of each node.
-fn edges(nodes: &[Value]) -> Result<Edges, Fault> {
-    let mut children = vec![Vec::new(); nodes.len()];
-    let mut parents = vec![None; nodes.len()];
-    for (i, node) in nodes.iter().enumerate() {
-        for child in node.get("children").and_then(Value::as_array).into_iter().flatten() {
-            let place = format!("node {i}");
-            let child = child.as_u64().filter(|&child| child < nodes.len() as u64).ok_or_else(|| {
-                Fault::at(place.as_str(), format!("names a child that does not exist, the file has {}", nodes.len()))
-            })? as usize;
-            if parents[child].replace(i).is_some() {
-                return Err(Fault::at(format!("node {child}"), "has two parents"));
+/// Whether a transform cannot be undone: it takes everything to a plane, a line or a point, or beyond numbers.
+pub(super) fn flattens(transform: DMat4) -> bool {
+    let axes = [transform.x_axis, transform.y_axis, transform.z_axis].map(|axis| axis.truncate());
+    let longest = axes.iter().map(|axis| axis.length()).fold(0.0, f64::max);
+    let volume = (axes[0] / longest).cross(axes[1] / longest).dot(axes[2] / longest).abs();
+    let invertible = transform.is_finite() && transform.inverse().is_finite() && volume > FLAT;
+    !invertible
+}
+
+/// The nodes as a forest.
+#[derive(Debug)]
+pub(super) struct Graph {
+    pub(super) parents: Vec<Option<usize>>,
+    pub(super) locals: Vec<Local>,
+    children: Vec<Vec<usize>>,
+}
+
+impl Graph {
+    /// Checks every node: children exist and have one parent, transforms are finite.
+    pub(super) fn new(nodes: &[Value]) -> Result<Graph, Fault> {
+        budget::check("nodes", nodes.len() as u64, budget::NODES)?;
+        let mut children = vec![Vec::new(); nodes.len()];
+        let mut parents = vec![None; nodes.len()];
+        for (i, node) in nodes.iter().enumerate() {
+            for child in node.get("children").and_then(Value::as_array).into_iter().flatten() {
+                let place = format!("node {i}");
+                let child = child.as_u64().filter(|&child| child < nodes.len() as u64).ok_or_else(|| {
+                    let problem = format!("names a child that does not exist, the file has {}", nodes.len());
+                    Fault::at(place.as_str(), problem)
+                })? as usize;
+                if parents[child].replace(i).is_some() {
+                    return Err(Fault::at(format!("node {child}"), "has two parents"));
+                }
+                children[i].push(child);
             }
-            children[i].push(child);
+        }
+        let locals = nodes.iter().enumerate().map(|(i, node)| Local::of(node, i)).collect::<Result<_, _>>()?;
+        Ok(Graph { parents, locals, children })
+    }
+
+    /// Every node, parents before children.
+    pub(super) fn order(&self) -> Result<Vec<usize>, Fault> {
+        let n = self.parents.len();
+        let mut open: Vec<usize> = (0..n).filter(|&node| self.parents[node].is_none()).collect();
+        let mut order = Vec::with_capacity(n);
+        while let Some(node) = open.pop() {
+            order.push(node);
+            open.extend(&self.children[node]);
+        }
+        if order.len() == n {
+            return Ok(order);
+        }
+        // With one parent each, what no root reaches goes in a circle.
+        let mut reached = vec![false; n];
+        order.into_iter().for_each(|node| reached[node] = true);
+        let node = reached.iter().position(|&reached| !reached).unwrap_or(0);
+        Err(Fault::at(format!("node {node}"), "is its own ancestor"))
+    }
+
+    fn world_transforms(&self) -> Result<Vec<DMat4>, Fault> {
+        let mut world = vec![DMat4::IDENTITY; self.parents.len()];
+        for node in self.order()? {
+            let parent = self.parents[node].map_or(DMat4::IDENTITY, |parent| world[parent]);
+            world[node] = parent * self.locals[node].matrix();
+        }
+        Ok(world)
+    }
+}
+
+/// The transform of a node within its parent.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Local {
+    Matrix(DMat4),
+    Parts(Parts),
+}
+
+/// A transform that can be animated: scale, then rotation, then translation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Parts {
+    pub(super) translation: DVec3,
+    pub(super) rotation: DQuat,
+    pub(super) scale: DVec3,
+}
+
+impl Local {
+    fn of(node: &Value, index: usize) -> Result<Local, Fault> {
+        let place = format!("node {index}");
+        if let Some(matrix) = json::numbers::<16>(node, "matrix", &place)? {
+            // A few units of single precision away is a writer's rounding; more is a projection.
+            return affine(DMat4::from_cols_array(&matrix), 1e-6, &place).map(Local::Matrix);
+        }
+        let scale = json::numbers(node, "scale", &place)?.map_or(DVec3::ONE, DVec3::from_array);
+        let rotation = json::numbers(node, "rotation", &place)?.map_or(DQuat::IDENTITY, DQuat::from_array);
+        let translation = json::numbers(node, "translation", &place)?.map_or(DVec3::ZERO, DVec3::from_array);
+        Ok(Local::Parts(Parts { translation, rotation: unit(rotation), scale }))
+    }
+
+    pub(super) fn matrix(&self) -> DMat4 {
+        match *self {
+            Local::Matrix(matrix) => matrix,
+            Local::Parts(Parts { translation, rotation, scale }) => {
+                DMat4::from_scale_rotation_translation(scale, rotation, translation)
+            }
         }
     }
-    Ok((children, parents))
+
+    /// The same in parts; none for a matrix that flattens.
+    pub(super) fn parts(&self) -> Option<Parts> {
+        match *self {
+            Local::Parts(parts) => Some(parts),
+            Local::Matrix(matrix) => {
+                let (scale, rotation, translation) = matrix.to_scale_rotation_translation();
+                let parts = Parts { translation, rotation, scale };
+                (scale.is_finite() && rotation.is_finite() && translation.is_finite()).then_some(parts)
+            }
+        }
+    }
 }
 
-fn world_transforms(nodes: &[Value], children: &[Vec<usize>], parents: &[Option<usize>]) -> Result<Vec<DMat4>, Fault> {
-    let mut world = vec![None; nodes.len()];
-    let mut open: Vec<usize> = (0..nodes.len()).filter(|&node| parents[node].is_none()).collect();
-    while let Some(node) = open.pop() {
-        let local = local_transform(&nodes[node], node)?;
-        let parent = parents[node].and_then(|parent| world[parent]).unwrap_or(DMat4::IDENTITY);
-        world[node] = Some(parent * local);
-        open.extend(&children[node]);
+/// The matrix with the last row [0, 0, 0, 1] to the bit, from which it may differ by `tolerance`.
+pub(super) fn affine(matrix: DMat4, tolerance: f64, place: &str) -> Result<DMat4, Fault> {
+    let last = matrix.row(3);
+    if !last.abs_diff_eq(DVec4::W, tolerance) {
+        return Err(Fault::at(place, format!("the last row of its matrix is {last}, it must be [0, 0, 0, 1]")));
     }
-    // With one parent each, what no root reaches goes in a circle.
-    let all: Option<Vec<DMat4>> = world.iter().copied().collect();
-    all.ok_or_else(|| {
-        let node = world.iter().position(Option::is_none).unwrap_or(0);
-        Fault::at(format!("node {node}"), "is its own ancestor")
+    Ok(DMat4 {
+        x_axis: matrix.x_axis.with_w(0.0),
+        y_axis: matrix.y_axis.with_w(0.0),
+        z_axis: matrix.z_axis.with_w(0.0),
+        w_axis: matrix.w_axis.with_w(1.0),
     })
 }
 
-fn local_transform(node: &Value, index: usize) -> Result<DMat4, Fault> {
-    let place = format!("node {index}");
-    if let Some(matrix) = json::numbers::<16>(node, "matrix", &place)? {
-        let matrix = DMat4::from_cols_array(&matrix);
-        let last = matrix.row(3);
-        // A few units of single precision away is a writer's rounding; more is a projection.
-        if !last.abs_diff_eq(DVec4::W, 1e-6) {
-            return Err(Fault::at(place, format!("the last row of its matrix is {last}, it must be [0, 0, 0, 1]")));
-        }
-        return Ok(DMat4 {
-            x_axis: matrix.x_axis.with_w(0.0),
-            y_axis: matrix.y_axis.with_w(0.0),
-            z_axis: matrix.z_axis.with_w(0.0),
-            w_axis: matrix.w_axis.with_w(1.0),
-        });
-    }
-    let scale = json::numbers(node, "scale", &place)?.map_or(DVec3::ONE, DVec3::from_array);
-    let rotation = json::numbers(node, "rotation", &place)?.map_or(DQuat::IDENTITY, DQuat::from_array);
-    let translation = json::numbers(node, "translation", &place)?.map_or(DVec3::ZERO, DVec3::from_array);
-    // Single-precision quaternions are a little off unit length; one of zeros turns nothing.
+/// Single-precision quaternions are a little off unit length; one of zeros turns nothing.
+pub(super) fn unit(rotation: DQuat) -> DQuat {
     let length = rotation.length();
-    let rotation = if length > 0.0 { rotation / length } else { DQuat::IDENTITY };
-    Ok(DMat4::from_scale_rotation_translation(scale, rotation, translation))
+    if length > 0.0 { rotation / length } else { DQuat::IDENTITY }
 }
 
 /// Nodes of the default scene, parents before children, in the order they are listed.

@@ -28,7 +28,8 @@ pub(crate) fn read(input: Input<'_>) -> Result<Opened, Fault> {
     let buffers = buffers::load(&document, &container, input.folder)?;
     let mut warnings = Vec::new();
     let n_meshes = json::list(&document, "meshes")?.len();
-    let transforms = nodes::mesh_transforms(&document, n_meshes, &mut warnings)?;
+    let placements = nodes::placements(&document, n_meshes, &mut warnings)?;
+    let transforms = placements.into_iter().map(|placement| placement.transform).collect();
     let data = Data { document: &document, buffers: &buffers, container: &container };
     let mut reader = Reader::new(data, transforms, input.name);
     reader.meshes()?;

@@ -75,6 +75,11 @@ fn mark(to: &Path) -> String {
     format!("# Materials of {}, written by Pliant\n", one_line(&name))
 }
 
+/// The material library that [`write()`] may write beside `to`.
+pub(crate) fn beside(to: &Path) -> Vec<PathBuf> {
+    vec![library_for(to, &mark(to))]
+}
+
 /// Where the library of `to` goes: `NAME.mtl`, or beside a library of another model `NAME-2.mtl` and so on.
 fn library_for(to: &Path, mark: &str) -> PathBuf {
     let first = to.with_extension("mtl");

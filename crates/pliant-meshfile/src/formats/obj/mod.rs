@@ -11,13 +11,14 @@ mod rewrite;
 mod source;
 mod text;
 
-pub(super) use export::write;
+pub(super) use export::{beside, write};
 
 use super::source::{Edit, Input, Opened, Output, Source};
 use crate::shape::{Corner, NO_MATERIAL, NONE, Part, Shape, ShapePart};
 use crate::{Fault, Format, SaveError};
 use glam::{Vec2, Vec3};
 use source::ObjSource;
+use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -43,7 +44,7 @@ pub(super) fn read(input: Input<'_>) -> Result<Opened, Fault> {
         parts: parsed.parts,
         materials,
         libraries: parsed.libraries,
-        has_polygons: parsed.has_polygons,
+        polygons: parsed.polygons,
         folder: input.folder.map(Path::to_owned),
     };
     Ok(Opened {
@@ -77,7 +78,7 @@ fn display_uvs(parsed: &parse::Parsed) -> Option<Vec<Vec2>> {
 impl ObjSource {
     /// What a shape does not keep of this very file.
     fn left_behind(&self) -> Vec<&'static str> {
-        let polygons = self.has_polygons.then_some("polygons of more than three corners");
+        let polygons = (!self.polygons.is_empty()).then_some("polygons of more than three corners");
         let materials = (!self.libraries.is_empty()).then_some("textures and material settings beyond the base color");
         polygons.into_iter().chain(materials).collect()
     }
@@ -86,6 +87,10 @@ impl ObjSource {
 impl Source for ObjSource {
     fn rewrite(&self, edit: &Edit<'_>, to: &Path, format: Format) -> Option<Result<Output, SaveError>> {
         (format == Format::Obj).then(|| rewrite::rewrite(self, edit, to))
+    }
+
+    fn polygons(&self) -> &[Range<u32>] {
+        &self.polygons
     }
 
     fn shape(&self, edit: &Edit<'_>) -> Shape {

@@ -5,6 +5,7 @@ use crate::shape::{NONE, ShapePart};
 use crate::{Fault, Warning, budget, polygon};
 use glam::{DVec3, Vec2, Vec3};
 use std::collections::HashMap;
+use std::ops::Range;
 
 /// Geometry and names of an OBJ file. Every index is in range.
 #[derive(Default)]
@@ -21,8 +22,8 @@ pub(super) struct Parsed {
     /// Names used by `usemtl`; `ShapePart::material` counts in it.
     pub(super) material_names: Vec<String>,
     pub(super) libraries: Vec<String>,
-    /// Whether any face has more than three corners.
-    pub(super) has_polygons: bool,
+    /// Triangles that each face of more than three corners was cut into.
+    pub(super) polygons: Vec<Range<u32>>,
     pub(super) warnings: Vec<Warning>,
 }
 
@@ -179,7 +180,10 @@ impl Reader {
             outline.extend(corners.iter().map(|c| self.out.positions[c.0 as usize]));
             cut.clear();
             polygon::triangulate(&outline, &mut tests, &mut cut);
-            self.out.has_polygons |= outline.len() > 3;
+            if outline.len() > 3 {
+                let first = self.out.triangles.len() as u32;
+                self.out.polygons.push(first..first + cut.len() as u32);
+            }
             for triangle in &cut {
                 let of = triangle.map(|local| corners[local as usize]);
                 self.out.triangles.push(of.map(|c| c.0));

@@ -2,6 +2,7 @@
 
 use crate::shape::{Material, ShapePart};
 use glam::{Vec2, Vec3};
+use std::ops::Range;
 use std::path::PathBuf;
 
 /// An OBJ file as it came.
@@ -20,6 +21,7 @@ pub(super) struct ObjSource {
     pub(super) materials: Vec<Material>,
     /// Material libraries the file names.
     pub(super) libraries: Vec<String>,
-    pub(super) has_polygons: bool,
+    /// Triangles that each face of more than three corners was cut into.
+    pub(super) polygons: Vec<Range<u32>>,
     pub(super) folder: Option<PathBuf>,
 }

@@ -1,0 +1,8 @@
+//! Poses out of files: each against what can be computed by hand.
+
+mod animation;
+mod damaged;
+mod matching;
+mod model;
+mod morphs;
+mod skins;
