@@ -3,6 +3,7 @@
 pub mod cli;
 pub mod document;
 pub mod editor;
+pub mod learning;
 pub mod solving;
 pub mod tools;
 pub mod viewport;

@@ -1,7 +1,8 @@
 //! Writes the samples to `assets/`, or compares what is there with what would be written.
 //!
 //! NAME.glb is the mesh, NAME.handles.json what to do with it (`pliant deform assets/NAME.glb --handles …`), and
-//! NAME.rigidity.json, where there is one, r of every vertex.
+//! NAME.rigidity.json, where there is one, r of every vertex. Sets of poses are a NAME.glb whose morph targets are the
+//! poses, with handles for yet another pose, and a NAME.truth.json that says what moves with which bone.
 
 use crate::failure::Failure;
 use crate::shapes::{self, Sample, Shape};
@@ -47,6 +48,18 @@ fn write_all(folder: &Path) -> Result<Vec<String>, Failure> {
         for (name, text) in texts(&sample, &shape) {
             let path = folder.join(&name);
             fs::write(&path, text).map_err(|source| Failure::File { path, source })?;
+            names.push(name);
+        }
+    }
+    for set in shapes::POSED {
+        let posed = (set.make)();
+        let handles = posed.handles().to_json().into_bytes();
+        let truth = posed.truth_json().into_bytes();
+        let files = [("glb", posed.glb(set.name)), ("handles.json", handles), ("truth.json", truth)];
+        for (ending, bytes) in files {
+            let name = format!("{}.{ending}", set.name);
+            let path = folder.join(&name);
+            fs::write(&path, bytes).map_err(|source| Failure::File { path, source })?;
             names.push(name);
         }
     }

@@ -104,7 +104,8 @@ fn wrong_usage_ends_with_2_and_explains_itself() {
 
 #[test]
 fn every_command_explains_itself_with_an_example() {
-    for arguments in [vec!["--help"], vec!["deform", "--help"], vec!["info", "--help"], vec!["render", "--help"]] {
+    for command in ["", "deform", "learn", "info", "render"] {
+        let arguments: Vec<&str> = [command, "--help"].into_iter().filter(|word| !word.is_empty()).collect();
         let outcome = pliant(&arguments).expect_done();
         assert!(outcome.out.contains("Example"), "{arguments:?}: {}", outcome.out);
         assert_eq!(outcome.err, "", "{arguments:?}");

@@ -4,6 +4,8 @@ mod agreement;
 mod commands;
 mod editor;
 mod editor_window;
+mod learn_command;
+mod learning;
 mod paper_figures;
 mod process;
 mod refusals;

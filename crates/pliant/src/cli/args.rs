@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use pliant_solver::Weights;
 
 const EDITOR_EXAMPLES: &str = "\
 Examples:
@@ -36,6 +37,8 @@ pub(super) struct Arguments {
 pub(super) enum Command {
     /// Bend a mesh: hold some vertices, move some, and let the rest follow
     Deform(DeformOptions),
+    /// Find out from poses how stiff each part of a mesh is
+    Learn(LearnOptions),
     /// Say what is in a mesh file: counts, bounds, defects, parts, rigidity
     Info(InfoOptions),
     /// Draw a picture of a mesh without a window
@@ -113,6 +116,108 @@ pub(super) struct DeformOptions {
     pub(super) report: Option<PathBuf>,
 }
 
+const LEARN_HELP: &str = "\
+Examples:
+  pliant learn horse.obj horse-*.obj -o horse.glb       one file a pose
+  pliant learn creature.glb -o learned.glb              its own morph targets and animations
+  pliant learn body.obj walk.glb run.glb --frames 40 -o r.json --report report.json
+
+A POSE is a file of any format that has the vertices and faces of REFERENCE, or its corners in the
+same order. A glTF that holds morph targets or animations gives all of them: its shape if that is
+not REFERENCE's, each target at weight 1, and --frames of each animation, skins and all. Without
+any POSE, those of REFERENCE itself are taken. Frames that show a shape seen before are passed
+over. Poses may lie anywhere and be turned in any way.
+
+Of each vertex the r is taken that makes the mean energy of its neighborhood plus OMEGA (R_MAX - r)
+least: the larger OMEGA, the stiffer. OUT with the extension .json is an array of one r a vertex,
+which --rigidity reads; any other is REFERENCE with its rigidity. TABLE.csv has a row a vertex,
+numbered from 0 as in REFERENCE: its r, how clearly that r won (from 0 to 1), and the mean energies
+for every r.";
+
+#[derive(Debug, Args)]
+#[command(after_help = LEARN_HELP)]
+pub(super) struct LearnOptions {
+    /// The mesh at rest (OBJ, glTF, GLB)
+    #[arg(value_name = "REFERENCE")]
+    pub(super) reference: PathBuf,
+
+    /// Files with poses of it; without any, what REFERENCE itself holds
+    #[arg(value_name = "POSE")]
+    pub(super) poses: Vec<PathBuf>,
+
+    /// The learned rigidity: an array (.json), or the reference mesh that carries it
+    #[arg(short, long, value_name = "OUT")]
+    pub(super) output: PathBuf,
+
+    /// The smallest r a vertex may get
+    #[arg(long, value_name = "R", default_value_t = 1, allow_negative_numbers = true)]
+    pub(super) r_min: i64,
+
+    /// The largest r a vertex may get
+    #[arg(long, value_name = "R", default_value_t = 6, allow_negative_numbers = true)]
+    pub(super) r_max: i64,
+
+    /// What one ring is worth: auto finds it in the poses, a number is the paper's (which has 0.3)
+    #[arg(long, value_name = "auto|X", default_value = "auto", value_parser = parse_omega, allow_negative_numbers = true)]
+    pub(super) omega: OmegaChoice,
+
+    /// Weights of the edges; with cotangent, which is not refused here, energies may be negative
+    #[arg(long, value_enum, default_value_t)]
+    pub(super) weights: WeightsChoice,
+
+    /// Divide out the unit of length of each file, found by the lengths of edges; said in the warnings
+    #[arg(long)]
+    pub(super) match_scale: bool,
+
+    /// Take files with as many vertices but other faces for the same vertices in the same order
+    #[arg(long)]
+    pub(super) reference_faces: bool,
+
+    /// Frames of each animation, evenly from its first key to its last
+    #[arg(long, value_name = "COUNT", default_value_t = 24, allow_negative_numbers = true)]
+    pub(super) frames: i64,
+
+    /// Go on without files and poses that are broken or of another mesh; each is said in the warnings
+    #[arg(long)]
+    pub(super) skip_broken: bool,
+
+    /// Threads to use [default: all cores]
+    #[arg(long, value_name = "N")]
+    pub(super) threads: Option<usize>,
+
+    /// Write the energies of every vertex for every r
+    #[arg(long, value_name = "TABLE.csv")]
+    pub(super) table: Option<PathBuf>,
+
+    /// Write facts and times as JSON
+    #[arg(long, value_name = "R.json")]
+    pub(super) report: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum OmegaChoice {
+    /// Found in the energies.
+    Auto,
+    /// As in the paper.
+    Absolute(f64),
+}
+
+impl OmegaChoice {
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            OmegaChoice::Auto => "auto",
+            OmegaChoice::Absolute(_) => "absolute",
+        }
+    }
+}
+
+fn parse_omega(text: &str) -> Result<OmegaChoice, String> {
+    if text == "auto" {
+        return Ok(OmegaChoice::Auto);
+    }
+    text.parse().map(OmegaChoice::Absolute).map_err(|_| "expected auto or a number, such as 0.3".to_owned())
+}
+
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(super) enum Method {
     /// Rigid neighborhoods of r rings a vertex
@@ -159,6 +264,16 @@ pub(super) enum WeightsChoice {
     Cotangent,
     /// 1 for every edge
     Uniform,
+}
+
+impl From<WeightsChoice> for Weights {
+    fn from(choice: WeightsChoice) -> Weights {
+        match choice {
+            WeightsChoice::Clamped => Weights::Clamped,
+            WeightsChoice::Cotangent => Weights::Cotangent,
+            WeightsChoice::Uniform => Weights::Uniform,
+        }
+    }
 }
 
 impl WeightsChoice {
@@ -259,6 +374,17 @@ mod tests {
     }
 
     #[test]
+    fn the_options_of_learn_are_all_named_in_the_readme() {
+        let readme = include_str!("../../../../README.md");
+        let command = Arguments::command();
+        let learn = command.find_subcommand("learn").expect("a command");
+        for option in learn.get_arguments().filter_map(|argument| argument.get_long()) {
+            let named = option == "output" || readme.contains(&format!("--{option}"));
+            assert!(named, "--{option} is not in README.md");
+        }
+    }
+
+    #[test]
     fn the_first_choice_named_is_the_default() {
         let parsed = Arguments::try_parse_from(["pliant", "deform", "a.obj", "--handles", "h.json", "-o", "b.obj"])
             .expect("the shortest legal command");
@@ -269,6 +395,18 @@ mod tests {
         assert_eq!(options.start, StartChoice::Auto);
         assert_eq!(options.max_iterations, 1000);
         assert_eq!(options.tolerance, 1e-3);
+    }
+
+    #[test]
+    fn learning_has_the_defaults_of_the_paper_but_for_omega() {
+        let parsed = Arguments::try_parse_from(["pliant", "learn", "a.obj", "b.obj", "-o", "r.json"]).expect("legal");
+        let Some(Command::Learn(options)) = parsed.command else { panic!("not learn: {:?}", parsed.command) };
+        assert_eq!((options.r_min, options.r_max), (1, 6));
+        assert_eq!(options.omega, OmegaChoice::Auto);
+        assert_eq!(parse_omega("0.3"), Ok(OmegaChoice::Absolute(0.3)));
+        assert!(parse_omega("much").is_err());
+        let frames = pliant_meshfile::poses::PoseOptions::default().frames;
+        assert_eq!(options.frames, frames as i64);
     }
 
     #[test]

@@ -5,24 +5,20 @@ use std::time::Instant;
 
 use glam::DVec3;
 use pliant_meshfile::{Format, MeshFile, SaveError, Warning};
-use pliant_solver::{Minimizer, Start, VertexId, Weights};
+use pliant_solver::{Minimizer, Start, VertexId};
 
-use super::args::{DeformOptions, Method, SolverChoice, StartChoice, WeightsChoice};
+use super::args::{DeformOptions, Method, SolverChoice, StartChoice};
 use super::console::Console;
 use super::failure::Failure;
 use super::handles_file;
-use super::report::{DeformReport, MeshCounts, RigiditySummary, peak_memory_bytes};
+use super::report::{DeformReport, MeshCounts, ROOM_FOR_NEWS, RigiditySummary, peak_memory_bytes, to_json};
 use super::rigidity::{self, ChosenRigidity};
 use super::solve::{Problem, Settings, milliseconds, solve};
-use super::staged::{Staged, check_target, same_file};
+use super::staged::{Staged, check_side_files, check_target, same_file};
 use super::surface;
 
 /// Loose components named one by one; the others are only counted.
 const LOOSE_NAMED: usize = 5;
-
-/// Bytes by which a report grows after it was first written: digits of times, and what OUT's format could not hold, a
-/// few sentences of about 100 bytes.
-const ROOM_FOR_NEWS: usize = 16 << 10;
 
 pub(super) fn run(options: &DeformOptions, console: &mut Console<'_>) -> Result<(), Failure> {
     check_options(options)?;
@@ -97,10 +93,18 @@ fn check_paths(options: &DeformOptions) -> Result<(), Failure> {
     if same_file(&options.output, &options.handles) {
         return Err(Failure::SamePath { path: options.output.clone(), what: "OUT", other: "the handles" });
     }
+    // The rigidity may lie there: what is written over it says the same.
+    let beside = [(Some(options.handles.as_path()), "a file that belongs to OUT")];
+    check_side_files(&[(&options.output, "the handles")], &beside)?;
     let Some(report) = &options.report else {
         return Ok(());
     };
     check_target(report)?;
+    let meshes = [
+        (options.output.as_path(), "a file that belongs to OUT"),
+        (options.mesh.as_path(), "a file that belongs to MESH"),
+    ];
+    check_side_files(&meshes, &[(Some(report), "the report")])?;
     inputs.extend([(options.mesh.as_path(), "MESH"), (options.output.as_path(), "OUT")]);
     match inputs.into_iter().find(|(path, _)| same_file(report, path)) {
         Some((_, other)) => Err(Failure::SamePath { path: report.clone(), what: "the report", other }),
@@ -134,11 +138,7 @@ fn load(options: &DeformOptions, console: &mut Console<'_>) -> Result<Job, Failu
 
 fn settings(options: &DeformOptions) -> Settings {
     Settings {
-        weights: match options.weights {
-            WeightsChoice::Clamped => Weights::Clamped,
-            WeightsChoice::Cotangent => Weights::Cotangent,
-            WeightsChoice::Uniform => Weights::Uniform,
-        },
+        weights: options.weights.into(),
         minimizer: match options.solver {
             SolverChoice::Lbfgs => Minimizer::Lbfgs,
             SolverChoice::LocalGlobal => Minimizer::LocalGlobal,
@@ -229,15 +229,9 @@ fn write(
     report.warnings.extend(lost.iter().map(ToString::to_string));
     if let Some(mut staged) = staged.take() {
         let written = staged.write(&to_json(report)).and_then(|()| staged.commit());
-        written.map_err(|source| Failure::ReportLost { out: options.output.clone(), source: Box::new(source) })?;
+        written.map_err(|source| Failure::lost("report", &options.output, source))?;
     }
     Ok(())
-}
-
-fn to_json(report: &DeformReport) -> Vec<u8> {
-    let mut json = serde_json::to_vec_pretty(report).expect("numbers, texts and lists always have a JSON form");
-    json.push(b'\n');
-    json
 }
 
 fn summary(options: &DeformOptions, report: &DeformReport) -> String {
@@ -253,4 +247,30 @@ fn summary(options: &DeformOptions, report: &DeformReport) -> String {
         report.iterations,
         report.times_ms.total
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cli::args::{Arguments, Command};
+    use clap::Parser;
+
+    #[test]
+    fn what_is_written_beside_out_is_neither_the_report_nor_the_handles() {
+        let folder = tempfile::tempdir().expect("a new folder");
+        let at = |name: &str| folder.path().join(name).display().to_string();
+        let refused = |handles: &str, report: &str| {
+            let (mesh, handles, out, report) = (at("bar.obj"), at(handles), at("out.obj"), at(report));
+            let line = ["pliant", "deform", &mesh, "--handles", &handles, "-o", &out, "--report", &report];
+            let parsed = Arguments::try_parse_from(line).expect("a legal command");
+            let Some(Command::Deform(options)) = parsed.command else { panic!("not deform") };
+            check_paths(&options).err().map(|error| error.to_string()).unwrap_or_default()
+        };
+        assert_eq!(refused("h.json", "report.json"), "");
+        let words = "the report would overwrite a file that belongs to";
+        assert!(refused("h.json", "out.rigidity.json").contains(&format!("{words} OUT")));
+        assert!(refused("h.json", "bar.rigidity.json").contains(&format!("{words} MESH")));
+        let said = refused("out.rigidity.json", "report.json");
+        assert!(said.contains("a file that belongs to OUT would overwrite the handles"), "{said}");
+    }
 }

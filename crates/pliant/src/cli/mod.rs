@@ -1,7 +1,7 @@
 //! The command line: the document and the solver of the editor, without a window.
 //!
 //! ```text
-//! arguments ── args ──▶ editor | deform | info | render ──▶ files, standard output
+//! arguments ── args ──▶ editor | deform | learn | info | render ──▶ files, standard output
 //!                                     │
 //!                                  Failure ──▶ one line on standard error and an exit code
 //! ```
@@ -18,6 +18,7 @@ mod deform;
 mod failure;
 mod handles_file;
 mod info;
+mod learn;
 mod render;
 mod report;
 mod rigidity;
@@ -70,6 +71,7 @@ where
 fn dispatch(parsed: Arguments, console: &mut Console<'_>) -> Result<(), Failure> {
     match parsed.command {
         Some(Command::Deform(options)) => deform::run(&options, console),
+        Some(Command::Learn(options)) => learn::run(&options, console),
         Some(Command::Info(options)) => info::run(&options, console),
         Some(Command::Render(options)) => render::run(&options, console),
         None => crate::editor::run(parsed.files).map_err(Failure::Editor),

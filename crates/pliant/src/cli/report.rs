@@ -1,4 +1,4 @@
-//! What `--report` writes: facts, energies and times of one deformation, in the order of the documented format.
+//! What `--report` writes: facts, energies and times of one command, in the order of the documented format.
 
 use pliant_meshfile::MeshFile;
 use pliant_solver::{Mesh, Rigidity};
@@ -102,6 +102,50 @@ pub(super) struct DeformTimes {
     pub(super) save: f64,
     /// From the start of the command until OUT is in place, the check for crossings included.
     pub(super) total: f64,
+}
+
+/// The report of `learn`; fields in the order in which they are written.
+#[derive(Debug, Serialize)]
+pub(super) struct LearnReport {
+    /// As numbered in the file.
+    pub(super) vertices: usize,
+    pub(super) poses: usize,
+    pub(super) r_min: u16,
+    pub(super) r_max: u16,
+    pub(super) omega: f64,
+    pub(super) omega_mode: &'static str,
+    /// How many of the vertices got each r, from `r_min`.
+    pub(super) histogram: Vec<usize>,
+    /// Mean over the surface of the energies for each r, from `r_min`.
+    pub(super) mean_energy: Vec<f64>,
+    pub(super) times_ms: LearnTimes,
+    /// Largest resident size of the process so far; null where the system does not tell.
+    pub(super) peak_memory_bytes: Option<u64>,
+    pub(super) warnings: Vec<String>,
+}
+
+/// Wall-clock times of the stages in milliseconds.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub(super) struct LearnTimes {
+    /// Reading the reference and all poses; all but the first while energies are computed.
+    pub(super) load: f64,
+    /// Weights, and N(k, r) of every vertex for every r.
+    pub(super) neighborhoods: f64,
+    /// Energies of all poses, and the choice of r.
+    pub(super) energies: f64,
+    /// From the start of the command until OUT is in place.
+    pub(super) total: f64,
+}
+
+/// Bytes by which a report grows after it was first written: digits of times, and what OUT's format could not hold, a
+/// few sentences of about 100 bytes.
+pub(super) const ROOM_FOR_NEWS: usize = 16 << 10;
+
+/// A report as the text of its file.
+pub(super) fn to_json(report: &impl Serialize) -> Vec<u8> {
+    let mut json = serde_json::to_vec_pretty(report).expect("numbers, texts and lists always have a JSON form");
+    json.push(b'\n');
+    json
 }
 
 /// The middle value, the mean of the middle two for an even number, 0 for none. `values` ends up in another order.

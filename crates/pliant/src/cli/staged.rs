@@ -6,6 +6,8 @@ use std::fs::{File, Permissions};
 use std::io::{Seek, Write};
 use std::path::{Path, PathBuf};
 
+use pliant_meshfile::side_files;
+
 use super::failure::Failure;
 
 /// A file being written under a temporary name beside its target. Dropped without [`Staged::commit`] it leaves no trace.
@@ -53,6 +55,18 @@ impl Staged {
         write(&mut self.file).map_err(|source| self.failed(source))
     }
 
+    /// Writes what is too long to be held in memory as one text, and waits until the disk has it.
+    pub(super) fn stream(&mut self, fill: impl FnOnce(&mut dyn Write) -> std::io::Result<()>) -> Result<(), Failure> {
+        let write = |file: &mut File| {
+            let mut buffered = std::io::BufWriter::new(&mut *file);
+            fill(&mut buffered)?;
+            buffered.flush()?;
+            drop(buffered);
+            file.sync_all()
+        };
+        write(&mut self.file).map_err(|source| self.failed(source))
+    }
+
     /// Puts the file in place of the target in one step.
     pub(super) fn commit(self) -> Result<(), Failure> {
         std::fs::rename(&self.temporary, &self.target).map_err(|source| self.failed(source))
@@ -87,6 +101,23 @@ pub(super) fn check_target(path: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
+/// Refuses outputs in place of the files that lie beside a mesh and belong to it: its material library, its rigidity.
+/// Meshes and outputs come with their names in messages.
+pub(super) fn check_side_files(
+    meshes: &[(&Path, &'static str)],
+    outputs: &[(Option<&Path>, &'static str)],
+) -> Result<(), Failure> {
+    for (mesh, other) in meshes {
+        let side_files = side_files(mesh);
+        for (path, what) in outputs.iter().filter_map(|&(path, what)| Some((path?, what))) {
+            if side_files.iter().any(|file| same_file(path, file)) {
+                return Err(Failure::SamePath { path: path.to_owned(), what, other });
+            }
+        }
+    }
+    Ok(())
+}
+
 fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(parent) if parent != Path::new("") => parent,
@@ -117,6 +148,26 @@ mod tests {
         staged.commit().expect("a free name");
         assert_eq!(std::fs::read(&target).expect("committed"), b"the second");
         assert_eq!(std::fs::read_dir(folder.path()).expect("the folder").count(), 1);
+    }
+
+    #[test]
+    fn what_lies_beside_a_mesh_and_belongs_to_it_is_no_output() {
+        let folder = tempfile::tempdir().expect("a new folder");
+        let at = |name: &str| folder.path().join(name);
+        let refused = |mesh: &str, output: &str| {
+            let outputs = [(None, "the table"), (Some(&*at(output)), "the report")];
+            check_side_files(&[(&at(mesh), "a file that belongs to OUT")], &outputs)
+                .err()
+                .map(|error| error.to_string())
+        };
+        for name in ["out.rigidity.json", "./out.rigidity.json", "out.mtl"] {
+            let said = refused("out.obj", name).expect(name);
+            assert!(
+                said.ends_with("the report would overwrite a file that belongs to OUT; name another file"),
+                "{said}"
+            );
+        }
+        assert_eq!([refused("out.glb", "out.rigidity.json"), refused("out.obj", "out.json")], [None, None]);
     }
 
     #[test]

@@ -65,6 +65,8 @@ pub enum Command {
     },
     /// Sets r of every vertex.
     FillAll(u16),
+    /// Sets r of every vertex to what was learned from poses: one r per surface point.
+    Learn(Rigidity),
     /// Changes the selection.
     Select(Vec<VertexId>, SelectMode),
     /// Changes the edge weights of the energy.
@@ -103,6 +105,14 @@ pub enum CommandError {
         /// Largest allowed.
         max: u16,
     },
+    /// Learned from another surface.
+    #[error("rigidity for {got} vertices does not fit this surface, which has {expected}: learn it from this mesh")]
+    WrongLength {
+        /// Given.
+        got: usize,
+        /// Vertices of the surface.
+        expected: usize,
+    },
     /// r out of range, found by the solver.
     #[error("{0}")]
     Rigidity(String),
@@ -130,6 +140,7 @@ impl Command {
             Command::Paint { .. } => "Paint rigidity",
             Command::Fill { .. } => "Fill rigidity",
             Command::FillAll(_) => "Set rigidity everywhere",
+            Command::Learn(_) => "Learn rigidity",
             Command::Select(..) => "Select",
             Command::SetWeights(_) => "Change weights",
             Command::SetLoose(_) => "Change loose parts",
@@ -176,6 +187,13 @@ pub(super) fn changed(scene: &Scene, command: Command, around: Surroundings<'_>)
         Command::FillAll(r) => {
             check_rigidity(r)?;
             next.rigidity = Rigidity::uniform(around.rest.len(), r);
+        }
+        Command::Learn(rigidity) => {
+            let (got, expected) = (rigidity.as_slice().len(), around.rest.len());
+            if got != expected {
+                return Err(CommandError::WrongLength { got, expected });
+            }
+            next.rigidity = rigidity;
         }
         Command::Select(vertices, mode) => {
             check_vertices(&vertices, around.rest.len())?;

@@ -38,6 +38,8 @@ pub enum Action {
     FillSelection,
     /// Current r everywhere.
     FillAll,
+    /// The panel in which rigidity is learned.
+    LearnRigidity,
     /// Removes the active or hovered group.
     DeleteHandle,
     /// Everything back to rest.
@@ -106,6 +108,7 @@ impl Action {
         Action::HoldEverythingElse,
         Action::FillSelection,
         Action::FillAll,
+        Action::LearnRigidity,
         Action::BrushSmaller,
         Action::BrushLarger,
         Action::Eyedropper,
@@ -140,6 +143,7 @@ impl Action {
             Action::HoldEverythingElse => "Hold everything else",
             Action::FillSelection => "Fill selection",
             Action::FillAll => "Set rigidity everywhere",
+            Action::LearnRigidity => "Learn rigidity from poses…",
             Action::DeleteHandle => "Delete handle",
             Action::ResetPose => "Reset pose",
             Action::Tool(kind) => kind.label(),
@@ -178,6 +182,7 @@ impl Action {
             Action::HoldEverythingElse => "Anchor all that is not selected: only the selection bends",
             Action::FillSelection => "Give the selected vertices the current rigidity",
             Action::FillAll => "Give every vertex the current rigidity",
+            Action::LearnRigidity => "Find out from a few poses where the mesh is stiff and where it bends",
             Action::DeleteHandle => "Let go of the handle or anchor under the pointer, or of the active one",
             Action::ResetPose => "Put all handles and the surface back to rest",
             Action::Tool(kind) => kind.description(),
@@ -213,6 +218,7 @@ impl Action {
             Action::OpenSample(_) | Action::HoldEverythingElse => None,
             Action::FillSelection => command(Key::F),
             Action::FillAll => None,
+            Action::LearnRigidity => command(Key::L),
             Action::DeleteHandle => plain(Key::Delete),
             Action::ResetPose => command(Key::R),
             Action::Tool(ToolKind::Handle) => plain(Key::H),
@@ -293,6 +299,7 @@ impl Action {
             Action::HoldEverythingElse => session.hold_everything_else(),
             Action::FillSelection => session.fill_selection(),
             Action::FillAll => session.apply(Command::FillAll(session.options.rigidity)),
+            Action::LearnRigidity => session.open_learning(),
             Action::DeleteHandle => delete_handle(session),
             Action::ResetPose => session.apply(Command::ResetPose),
             Action::Tool(kind) => session.take_tool(kind),

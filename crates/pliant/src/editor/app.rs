@@ -205,6 +205,11 @@ impl eframe::App for EditorApp {
                     self.dialog = Dialog::None;
                     self.lose(Loss::Open(path), ctx);
                 }
+                (JobEvent::ChosenPoses(model, paths), _) => {
+                    if let Some(learning) = self.session.learning.as_mut().filter(|panel| panel.is_about(&model)) {
+                        learning.add_files(paths);
+                    }
+                }
                 (JobEvent::ChosenToSave(chosen), Dialog::Save { path }) => *path = chosen.display().to_string(),
                 (JobEvent::ChosenToSave(path), _) => self.save_to(path),
                 (JobEvent::Opened { opened, sample }, dialog) => {
@@ -222,7 +227,11 @@ impl eframe::App for EditorApp {
         }
         let dropped: Vec<PathBuf> =
             ctx.input(|input| input.raw.dropped_files.iter().map(|file| file.path().to_owned()).collect());
-        if let Some(path) = dropped.into_iter().next() {
+        if let Some(learning) = &mut self.session.learning
+            && !dropped.is_empty()
+        {
+            learning.add_files(dropped);
+        } else if let Some(path) = dropped.into_iter().next() {
             self.lose(Loss::Open(path), ctx);
         }
         if ctx.input(|input| input.viewport().close_requested()) && !self.may_close {
@@ -262,6 +271,7 @@ impl eframe::App for EditorApp {
             let rect = ui.available_rect_before_wrap();
             self.viewport.show(ui, &mut self.session);
             panels::legend(ui, rect, &mut self.session);
+            panels::learn(ui, rect, &mut self.session);
             panels::welcome(ui, rect, &mut self.session);
             panels::notices(ui, rect, &mut self.session);
         });

@@ -28,6 +28,8 @@ pub enum Job {
     },
     /// Asks the platform's dialog for a file to open.
     BrowseOpen,
+    /// Asks the platform's dialog for files with poses of a surface.
+    BrowsePoses(Arc<Model>),
     /// Asks the platform's dialog for a file to write.
     BrowseSave {
         /// Proposed name.
@@ -67,6 +69,8 @@ pub enum JobEvent {
     },
     /// A path was chosen to open.
     ChosenToOpen(PathBuf),
+    /// Files with poses of a surface were chosen.
+    ChosenPoses(Arc<Model>, Vec<PathBuf>),
     /// A path was chosen to write.
     ChosenToSave(PathBuf),
     /// There is no dialog on this machine, or it was closed at once.
@@ -158,7 +162,7 @@ fn label(job: &Job) -> &'static str {
     match job {
         Job::Open(_) | Job::OpenSample(_) => OPENING,
         Job::Save { .. } => SAVING,
-        Job::BrowseOpen | Job::BrowseSave { .. } => "Waiting for the file dialog…",
+        Job::BrowseOpen | Job::BrowsePoses(_) | Job::BrowseSave { .. } => "Waiting for the file dialog…",
     }
 }
 
@@ -171,6 +175,10 @@ fn run(job: Job) -> JobEvent {
             let dialog = rfd::FileDialog::new().add_filter("Meshes", pliant_meshfile::Format::EXTENSIONS);
             ask(|| dialog.pick_file(), JobEvent::ChosenToOpen)
         }
+        Job::BrowsePoses(model) => {
+            let dialog = rfd::FileDialog::new().add_filter("Meshes", pliant_meshfile::Format::EXTENSIONS);
+            ask(|| dialog.pick_files(), |paths| JobEvent::ChosenPoses(model, paths))
+        }
         Job::BrowseSave { name } => {
             let dialog = rfd::FileDialog::new().set_file_name(name);
             let dialog = dialog.add_filter("Meshes", pliant_meshfile::Format::EXTENSIONS);
@@ -179,7 +187,7 @@ fn run(job: Job) -> JobEvent {
     }
 }
 
-fn ask(dialog: impl FnOnce() -> Option<PathBuf>, chosen: impl FnOnce(PathBuf) -> JobEvent) -> JobEvent {
+fn ask<T>(dialog: impl FnOnce() -> Option<T>, chosen: impl FnOnce(T) -> JobEvent) -> JobEvent {
     let start = std::time::Instant::now();
     match dialog() {
         Some(path) => chosen(path),

@@ -18,6 +18,10 @@ pub enum Sample {
     Bar,
     /// The paper's thin bar.
     ThinBar,
+    /// An animal with twelve poses to learn rigidity from.
+    Gecko,
+    /// A bar with joints, and twelve poses.
+    JointedBar,
 }
 
 struct Parts {
@@ -29,7 +33,15 @@ struct Parts {
 
 impl Sample {
     /// All, the start sample first.
-    pub const ALL: [Sample; 5] = [Sample::Creature, Sample::Cactus, Sample::Sheet, Sample::Bar, Sample::ThinBar];
+    pub const ALL: [Sample; 7] = [
+        Sample::Creature,
+        Sample::Cactus,
+        Sample::Sheet,
+        Sample::Bar,
+        Sample::ThinBar,
+        Sample::Gecko,
+        Sample::JointedBar,
+    ];
 
     /// Name in menus.
     pub fn name(self) -> &'static str {
@@ -71,6 +83,18 @@ impl Sample {
                 name: "thin bar",
                 glb: include_bytes!(asset!("thin-bar.glb")),
                 handles: include_str!(asset!("thin-bar.handles.json")),
+                rigidity: None,
+            },
+            Sample::Gecko => Parts {
+                name: "gecko (12 poses)",
+                glb: include_bytes!(asset!("gecko.glb")),
+                handles: include_str!(asset!("gecko.handles.json")),
+                rigidity: None,
+            },
+            Sample::JointedBar => Parts {
+                name: "jointed bar (12 poses)",
+                glb: include_bytes!(asset!("jointed-bar.glb")),
+                handles: include_str!(asset!("jointed-bar.handles.json")),
                 rigidity: None,
             },
         }

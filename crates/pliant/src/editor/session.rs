@@ -8,10 +8,11 @@ use glam::{DAffine3, Vec2};
 use pliant_solver::{Rigidity, VertexId};
 
 use super::jobs::{Jobs, Opened};
-use super::{ColorBy, Job, JobEvent, Look, NoticeKind, Notices, Open, Sample, Status, Welcome};
+use super::{ColorBy, Job, JobEvent, Learning, Look, NoticeKind, Notices, Open, Sample, Shown, Status, Trial, Welcome};
 use crate::document::{Command, Document, GroupKind, Model, SelectMode, Snapshot};
 use crate::solving::{SolveReport, SolveRequest, Worker};
 use crate::tools::{Context, Input, Marks, Options, Tool, ToolKind, View};
+use crate::viewport::Coloring;
 
 /// Everything behind the window.
 pub struct Session {
@@ -26,6 +27,9 @@ pub struct Session {
     pub notices: Notices,
     /// What the solver last said.
     pub status: Status,
+    /// Rigidity being learned from poses, while its panel is open.
+    pub learning: Option<Learning>,
+    wake: Arc<dyn Fn() + Send + Sync>,
     viewport_size: Vec2,
     worker: Worker,
     jobs: Jobs,
@@ -48,6 +52,8 @@ impl Session {
             look: Look::default(),
             notices: Notices::default(),
             status: Status::default(),
+            learning: None,
+            wake: wake.clone(),
             viewport_size: Vec2::new(800.0, 600.0),
             worker: Worker::start(move || wake_worker())?,
             jobs: Jobs::new(wake),
@@ -98,6 +104,7 @@ impl Session {
         self.options.fit_patch(f64::from(opened.model.diagonal()), opened.model.mean_edge());
         self.tool = self.tool_kind.new_tool();
         self.status = Status::default();
+        self.learning = None;
         self.sent = None;
         self.welcome = (sample == Some(Sample::Creature)).then(Welcome::default);
         self.open = Some(Open::new(opened, sample));
@@ -108,6 +115,9 @@ impl Session {
     pub fn poll(&mut self) -> Vec<JobEvent> {
         if let Some(report) = self.worker.poll() {
             self.take_report(report);
+        }
+        if let Some(learning) = &mut self.learning {
+            learning.poll();
         }
         let mut for_window = Vec::new();
         while let Some(event) = self.jobs.poll() {
@@ -132,7 +142,9 @@ impl Session {
                     NoticeKind::Warning,
                     "No file dialog answered on this machine: type the path instead, or drop a file on the window",
                 ),
-                event @ (JobEvent::ChosenToOpen(_) | JobEvent::ChosenToSave(_)) => for_window.push(event),
+                event @ (JobEvent::ChosenToOpen(_) | JobEvent::ChosenPoses(..) | JobEvent::ChosenToSave(_)) => {
+                    for_window.push(event);
+                }
             }
         }
         for_window
@@ -182,6 +194,11 @@ impl Session {
     /// Carries out a command; a refusal becomes a notice.
     pub fn apply(&mut self, command: Command) {
         let Some(open) = &mut self.open else { return };
+        if let Some(learning) = &mut self.learning
+            && matches!(command, Command::Paint { .. } | Command::Fill { .. } | Command::FillAll(_))
+        {
+            learning.look_away();
+        }
         if let Err(error) = open.document.apply(command) {
             self.notices.push(NoticeKind::Error, error.to_string());
         } else if let Some(welcome) = &mut self.welcome {
@@ -335,6 +352,55 @@ impl Session {
     /// Sets the current r, kept within what the solver takes.
     pub fn choose_rigidity(&mut self, r: u16) {
         self.options.rigidity = r.clamp(1, Rigidity::MAX);
+    }
+
+    /// r that colors the surface: what is being learned, while it is looked at, else the document's.
+    pub fn shown_rigidity(&self) -> Option<&Rigidity> {
+        let trial = self.learning.as_ref().and_then(Learning::trial).filter(|trial| trial.shown != Shown::Now);
+        trial.map(Trial::rigidity).or_else(|| self.document().map(|document| &document.scene().rigidity))
+    }
+
+    /// What colors the surface now, and the numbers for it where it is not r.
+    pub(super) fn coloring(&self) -> (Coloring, Option<Arc<[f32]>>) {
+        if let Some(trial) = self.learning.as_ref().and_then(Learning::trial) {
+            match trial.shown {
+                Shown::Learned => return (Coloring::Rigidity, None),
+                Shown::Confidence => return (Coloring::Energy, Some(trial.confidence().clone())),
+                Shown::Now => {}
+            }
+        }
+        let energies = self.status.report.as_ref().and_then(|report| report.vertex_energies.clone());
+        match self.look.color_by {
+            ColorBy::Rigidity => (Coloring::Rigidity, None),
+            ColorBy::Energy if energies.is_some() => (Coloring::Energy, energies),
+            ColorBy::Plain | ColorBy::Energy => (Coloring::Plain, None),
+        }
+    }
+
+    /// Opens the panel in which rigidity is learned from poses.
+    pub fn open_learning(&mut self) {
+        let Some(document) = self.open.as_ref().map(|open| &open.document) else { return };
+        if self.learning.is_none() {
+            let (model, weights) = (document.model().clone(), document.scene().weights);
+            self.learning = Some(Learning::new(model, weights, self.wake.clone()));
+        }
+    }
+
+    /// Begins to learn from the poses of the panel.
+    pub fn start_learning(&mut self) {
+        let weights = self.document().map(|document| document.scene().weights);
+        if let (Some(learning), Some(weights)) = (&mut self.learning, weights) {
+            learning.start_with(weights);
+        }
+    }
+
+    /// Makes what was learned the rigidity of the surface, and closes the panel.
+    pub fn apply_learned(&mut self) {
+        let learned = self.learning.as_ref().and_then(Learning::trial).map(|trial| trial.rigidity().clone());
+        if let Some(rigidity) = learned {
+            self.learning = None;
+            self.apply(Command::Learn(rigidity));
+        }
     }
 
     /// Turns the camera so that the selection, or else the whole surface, fills the viewport.

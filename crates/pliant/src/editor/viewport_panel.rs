@@ -7,13 +7,11 @@ use glam::{Vec2, Vec3};
 use pliant_solver::{Rigidity, VertexId};
 
 use super::look::ramp_max;
-use super::{ColorBy, NoticeKind, Session, theme};
+use super::{NoticeKind, Session, theme};
 use crate::document::{GroupKind, Selection};
 use crate::solving::SolveState;
 use crate::tools::{Cursor, Input, Modifiers, Pointer, ToolKind};
-use crate::viewport::{
-    Camera, Coloring, DeviceWatch, Dot, Line, Renderer, SurfaceFrame, ViewScene, samples_for, watch_device,
-};
+use crate::viewport::{Camera, DeviceWatch, Dot, Line, Renderer, SurfaceFrame, ViewScene, samples_for, watch_device};
 
 /// Larger groups show only some of their vertices: thousands of dots hide the surface (by eye).
 const DOTS_PER_GROUP: usize = 100;
@@ -276,7 +274,7 @@ impl ViewportPanel {
     fn scene(&mut self, session: &mut Session, pixels_per_point: f32) -> Option<ViewScene> {
         let marks = session.marks();
         let look = session.look.clone();
-        let values = session.status.report.as_ref().and_then(|report| report.vertex_energies.clone());
+        let (coloring, values) = session.coloring();
         let open = session.open()?;
         let (scene, model) = (open.document.scene(), open.document.model());
         let frame = open.surface.frame().clone();
@@ -284,21 +282,17 @@ impl ViewportPanel {
         dots.extend(marks.dots);
         keep(&mut self.cache.dots, dots);
         keep(&mut self.cache.lines, marks.lines);
-        let coloring = match look.color_by {
-            ColorBy::Rigidity => Coloring::Rigidity,
-            ColorBy::Energy if values.is_some() => Coloring::Energy,
-            ColorBy::Plain | ColorBy::Energy => Coloring::Plain,
-        };
+        let rigidity = session.shown_rigidity().unwrap_or(&scene.rigidity);
         Some(ViewScene {
             triangles: model.triangles.clone(),
-            rigidity: self.cache.rigidity(&scene.rigidity),
+            rigidity: self.cache.rigidity(rigidity),
             values,
             selected: self.cache.selected(&scene.selection, frame.positions.len()),
             base_colors: model.base_colors.clone(),
             dots: self.cache.dots.clone(),
             lines: self.cache.lines.clone(),
             coloring,
-            ramp_max: ramp_max(&scene.rigidity),
+            ramp_max: ramp_max(rigidity),
             color_opacity: look.opacity,
             shading: look.shading,
             wireframe: look.wireframe,

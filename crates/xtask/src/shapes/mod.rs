@@ -9,10 +9,14 @@ pub(crate) mod cactus;
 pub(crate) mod creature;
 pub(crate) mod field;
 pub(crate) mod flips;
+pub(crate) mod gecko;
 pub(crate) mod handles;
+pub(crate) mod jointed_bar;
 pub(crate) mod mesh;
 pub(crate) mod polygonize;
+pub(crate) mod posed;
 pub(crate) mod sheet;
+pub(crate) mod skeleton;
 
 pub(crate) use handles::Handles;
 pub(crate) use mesh::Shape;
@@ -30,6 +34,9 @@ pub(crate) struct Sample {
 
 /// All samples, in the order in which they are reported.
 pub(crate) const ALL: [Sample; 5] = [bar::BAR, bar::THIN_BAR, cactus::CACTUS, sheet::SHEET, creature::CREATURE];
+
+/// All sets of poses.
+pub(crate) const POSED: [posed::PoseSet; 2] = [gecko::GECKO, jointed_bar::JOINTED_BAR];
 
 #[cfg(test)]
 mod tests {

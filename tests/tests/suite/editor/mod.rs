@@ -2,6 +2,7 @@
 
 mod bending;
 mod files;
+mod learning;
 mod monkey;
 mod painting;
 

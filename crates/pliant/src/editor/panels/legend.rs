@@ -3,8 +3,8 @@
 use egui::{Align2, Color32, CornerRadius, FontId, Rect, Ui, Vec2, pos2, vec2};
 
 use crate::editor::look::ramp_max;
-use crate::editor::{ColorBy, Session, theme};
-use crate::viewport::{energy_color, rigidity_color};
+use crate::editor::{Learning, Session, Shown, theme};
+use crate::viewport::{Coloring, energy_color, rigidity_color};
 
 const SWATCH: Vec2 = Vec2::new(26.0, 14.0);
 /// Longer ramps are drawn without a number on every swatch.
@@ -12,12 +12,12 @@ const NUMBERED: u16 = 12;
 
 /// Paints the legend into the lower left corner of `viewport`. With a click on a swatch its r becomes the current one.
 pub(in crate::editor) fn legend(ui: &mut Ui, viewport: Rect, session: &mut Session) {
-    let Some(document) = session.document() else { return };
-    let max = ramp_max(&document.scene().rigidity);
-    let size = match session.look.color_by {
-        ColorBy::Plain => return,
-        ColorBy::Rigidity => vec2(f32::from(max.min(NUMBERED)) * SWATCH.x + 20.0, 52.0),
-        ColorBy::Energy => vec2(180.0, 48.0),
+    let Some(max) = session.shown_rigidity().map(ramp_max) else { return };
+    let coloring = session.coloring().0;
+    let size = match coloring {
+        Coloring::Plain => return,
+        Coloring::Rigidity => vec2(f32::from(max.min(NUMBERED)) * SWATCH.x + 20.0, 52.0),
+        Coloring::Energy => vec2(180.0, 48.0),
     };
     let corner = pos2(viewport.left() + 12.0, viewport.bottom() - size.y - 12.0);
     // A layer of its own, so that a click on the legend does nothing to the surface behind it.
@@ -25,10 +25,10 @@ pub(in crate::editor) fn legend(ui: &mut Ui, viewport: Rect, session: &mut Sessi
         let (card, _) = ui.allocate_exact_size(size, egui::Sense::click_and_drag());
         let fill = theme::palette(session.look.theme).panel.gamma_multiply(0.86);
         ui.painter().rect_filled(card, CornerRadius::same(6), fill);
-        match session.look.color_by {
-            ColorBy::Plain => {}
-            ColorBy::Rigidity => rigidity(ui, card, max, session),
-            ColorBy::Energy => energy(ui, card, session),
+        match coloring {
+            Coloring::Plain => {}
+            Coloring::Rigidity => rigidity(ui, card, max, session),
+            Coloring::Energy => numbers(ui, card, session),
         }
     });
 }
@@ -57,8 +57,11 @@ fn rigidity(ui: &mut Ui, card: Rect, max: u16, session: &mut Session) {
     }
 }
 
-fn energy(ui: &mut Ui, card: Rect, session: &mut Session) {
-    title(ui, card, "Energy", "low", "high", session);
+fn numbers(ui: &mut Ui, card: Rect, session: &mut Session) {
+    let is_confidence =
+        session.learning.as_ref().and_then(Learning::trial).is_some_and(|trial| trial.shown == Shown::Confidence);
+    let name = if is_confidence { "Confidence" } else { "Energy" };
+    title(ui, card, name, "low", "high", session);
     let steps = 40;
     for k in 0..steps {
         let [r, g, b] = energy_color(k as f32 / (steps - 1) as f32);

@@ -38,7 +38,7 @@ pub(in crate::editor) fn menu(ui: &mut Ui, session: &mut Session) -> Option<Acti
             ];
             items(ui, session, &select, &mut chosen);
             ui.separator();
-            items(ui, session, &[Action::FillSelection, Action::FillAll], &mut chosen);
+            items(ui, session, &[Action::FillSelection, Action::FillAll, Action::LearnRigidity], &mut chosen);
             ui.separator();
             items(ui, session, &[Action::DeleteHandle, Action::ResetPose], &mut chosen);
         });

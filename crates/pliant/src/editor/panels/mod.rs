@@ -3,6 +3,7 @@
 mod dialogs;
 mod icons;
 mod inspector;
+mod learn;
 mod legend;
 mod menu;
 mod notices;
@@ -13,6 +14,7 @@ mod welcome;
 
 pub(super) use dialogs::{Dialog, DialogOutcome, Loss};
 pub(super) use inspector::inspector;
+pub(super) use learn::learn;
 pub(super) use legend::legend;
 pub(super) use menu::menu;
 pub(super) use notices::notices;

@@ -91,9 +91,13 @@ pub(super) fn rigidity(ui: &mut Ui, session: &mut Session, chosen: &mut Option<A
         };
         ui.label(RichText::new(text).weak());
     }
-    if action_button(ui, session, Action::FillAll).clicked() {
-        *chosen = Some(Action::FillAll);
-    }
+    ui.horizontal_wrapped(|ui| {
+        for action in [Action::FillAll, Action::LearnRigidity] {
+            if action_button(ui, session, action).clicked() {
+                *chosen = Some(action);
+            }
+        }
+    });
 }
 
 /// The groups.
