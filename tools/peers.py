@@ -193,8 +193,10 @@ def libigl_path(scene, most):
 
 
 def reached(path, goal):
-    """The first of a path's stations whose energy is at most the goal."""
-    return next((station for station in path if station[2] <= goal), (None, float("inf"), None))
+    """Iterations and seconds of the first of a path's stations whose energy is at most the goal; no iterations, and the
+    seconds of all, if there is none."""
+    station = next((station for station in path if station[2] <= goal), None)
+    return station[:2] if station else (None, path[-1][1])
 
 
 def to_one_percent(scene, pliant, most):
@@ -266,9 +268,10 @@ def goal_table(all_scenes, program, folder, most):
     rows = []
     for scene in all_scenes:
         theirs, ours, lowest = to_one_percent(scene, Pliant(program, scene, folder), most)
-        n = f"{len(scene.points):,}"
-        rows.append([n, "libigl", digits(lowest[0]), str(theirs[0]), digits(theirs[1]), "1"])
-        rows.append([n, "Pliant", digits(lowest[1]), str(ours[0]), digits(ours[1]), digits(theirs[1] / ours[1])])
+        n, more = f"{len(scene.points):,}", "" if theirs[0] else "> "
+        steps = [str(done or f"> {most}") for done, _ in (theirs, ours)]
+        rows.append([n, "libigl", digits(lowest[0]), steps[0], more + digits(theirs[1]), "1"])
+        rows.append([n, "Pliant", digits(lowest[1]), steps[1], digits(ours[1]), more + digits(theirs[1] / ours[1])])
     print(f"From rest, set-up included, to within 1 % of the lowest energy that either reaches in {most} iterations.\n")
     table(["vertices", "program", "lowest E", "iterations", "s", "libigl / this"], rows)
 
