@@ -16,18 +16,14 @@ use super::rigidity::{self, ChosenRigidity};
 use super::solve::{Problem, Settings, milliseconds, solve};
 use super::staged::{Staged, check_side_files, check_target, same_file};
 use super::surface;
+use super::threads::on_threads;
 
 /// Loose components named one by one; the others are only counted.
 const LOOSE_NAMED: usize = 5;
 
 pub(super) fn run(options: &DeformOptions, console: &mut Console<'_>) -> Result<(), Failure> {
     check_options(options)?;
-    let threads = options.threads.unwrap_or(0);
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()
-        .map_err(|source| Failure::Threads { threads, source })?;
-    pool.install(|| run_in_pool(options, console))
+    on_threads(options.threads, || run_in_pool(options, console))
 }
 
 fn run_in_pool(options: &DeformOptions, console: &mut Console<'_>) -> Result<(), Failure> {

@@ -21,6 +21,7 @@ use super::report::{LearnReport, LearnTimes};
 use super::solve::milliseconds;
 use super::staged::{check_side_files, check_target, same_file};
 use super::surface;
+use super::threads::on_threads;
 use crate::learning::sources::{Source, Sources};
 use feeding::Feeding;
 use outcome::Outcome;
@@ -31,12 +32,7 @@ const MOST_FRAMES: i64 = 10_000;
 pub(super) fn run(options: &LearnOptions, console: &mut Console<'_>) -> Result<(), Failure> {
     check_options(options)?;
     check_paths(options)?;
-    let threads = options.threads.unwrap_or(0);
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()
-        .map_err(|source| Failure::Threads { threads, source })?;
-    pool.install(|| run_in_pool(options, console))
+    on_threads(options.threads, || run_in_pool(options, console))
 }
 
 fn run_in_pool(options: &LearnOptions, console: &mut Console<'_>) -> Result<(), Failure> {

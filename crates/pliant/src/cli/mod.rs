@@ -25,6 +25,7 @@ mod rigidity;
 mod solve;
 mod staged;
 mod surface;
+mod threads;
 
 pub use console::Console;
 
