@@ -118,7 +118,7 @@ mod test_support;
 mod tests;
 
 pub use analysis::Analysis;
-pub use analysis::topology::Defects;
+pub use analysis::defects::{Defect, Defects};
 pub use analysis::weights::Weights;
 pub use error::{LearnError, MeshError, RigidityError, SolveError};
 pub use held::LooseComponents;

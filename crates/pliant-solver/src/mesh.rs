@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 
-use crate::analysis::topology::{Defects, HalfEdges, components, count_defects};
+use crate::analysis::defects::Defects;
+use crate::analysis::topology::{HalfEdges, components};
 use crate::{MeshError, VertexId};
 
 /// Coordinates beyond this would overflow when squared and summed.
@@ -37,7 +38,7 @@ impl Mesh {
         let edges = half_edges.edges();
         let (offsets, neighbors) = adjacency(positions.len(), &edges);
         let (components, n_components) = components(&offsets, &neighbors);
-        let defects = count_defects(&positions, &triangles, &half_edges);
+        let defects = Defects::of(&positions, &triangles, &half_edges);
         Ok(Mesh { positions, triangles, edges, offsets, neighbors, components, n_components, defects })
     }
 
@@ -178,33 +179,5 @@ mod tests {
         let mesh = Mesh::new(points(7), vec![[4, 5, 6], [0, 2, 3]]).expect("valid");
         assert_eq!(mesh.components(), &[0, 1, 0, 0, 2, 2, 2]);
         assert_eq!(mesh.defects().unreferenced_vertices, 1);
-    }
-
-    #[test]
-    fn defects_are_counted() {
-        let p = vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z, -DVec3::Y, DVec3::X * 2.0, DVec3::X * 3.0];
-        let faces = vec![
-            [0, 1, 2],
-            [0, 1, 3], // the same direction along edge 0-1, and with the next a third face on it
-            [1, 0, 4],
-            [2, 0, 1], // the first again
-            [1, 5, 6], // collinear
-        ];
-        let defects = Mesh::new(p, faces).expect("valid").defects();
-        assert_eq!(defects.non_manifold_edges, 1, "{defects:?}");
-        assert_eq!(defects.duplicate_faces, 1, "{defects:?}");
-        assert_eq!(defects.degenerate_faces, 1, "{defects:?}");
-        assert_eq!(defects.inconsistent_edges, 2, "{defects:?}");
-        assert_eq!(defects.boundary_edges, 7, "{defects:?}");
-    }
-    #[test]
-    fn a_face_with_a_repeated_corner_is_degenerate_and_changes_nothing_else() {
-        let p = vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z, -DVec3::Y];
-        let faces = vec![[0, 1, 2], [1, 0, 4]];
-        let without = Mesh::new(p.clone(), faces.clone()).expect("valid");
-        let with = Mesh::new(p, [faces, vec![[0, 0, 1], [2, 1, 2], [3, 3, 3], [2, 3, 2]]].concat()).expect("valid");
-        let expected = Defects { degenerate_faces: 4, unreferenced_vertices: 0, ..without.defects() };
-        assert_eq!(with.defects(), expected);
-        assert_eq!(with.n_edges(), without.n_edges() + 1, "they are edges none the less");
     }
 }

@@ -20,10 +20,12 @@ fn info_counts_parts_and_defects() {
         assert_eq!(facts["defects"][defect], json!(1), "{defect}: {}", facts["defects"]);
     }
     assert!(facts["defects"]["boundary_edges"].is_u64() && facts["defects"]["non_manifold_edges"].is_u64());
+    let unused = &facts["findings"].as_array().expect("a list").last().expect("some")["vertices"];
+    assert_eq!(unused, &json!([4]), "findings name the vertices of the file: {}", facts["findings"]);
     assert_eq!(facts["rigidity"], Value::Null);
     assert!(facts["parts"].is_array() && facts["warnings"].is_array());
     let text = pliant(["info", &mesh]).expect_done().out;
-    for words in ["defects.obj", "vertices    5", "1 duplicate faces", "1 unreferenced vertices"] {
+    for words in ["defects.obj", "vertices    5", "1 face that repeats an earlier one", "1 vertex in no face"] {
         assert!(text.contains(words), "{text}\ndoes not say {words:?}");
     }
 }

@@ -3,6 +3,7 @@
 //! Vertices are renumbered along a Hilbert curve and edges along strips of faces, component by component, so that every
 //! later pass walks memory nearly in order. Callers never see this numbering: [`Solver`](crate::Solver) translates at its border.
 
+pub(crate) mod defects;
 pub(crate) mod edge_order;
 pub(crate) mod hilbert;
 pub(crate) mod stars;

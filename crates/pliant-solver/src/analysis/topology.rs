@@ -1,24 +1,28 @@
-//! Edges, components and defects of a triangle list, by sorting half-edges: no hash, so the same every time.
+//! Edges and components of a triangle list, by sorting half-edges: no hash, so the same every time.
 
-use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::Mesh;
-use crate::analysis::weights::unit_sides;
-
-/// Twice the area over the longest side squared below which a face counts as without area. Rounding of coordinates
-/// far from the origin gives 1e-13 or so.
-const FLAT: f64 = 1e-12;
 
 /// A side of a face between two vertices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-struct Side {
-    lower: u32,
-    upper: u32,
+pub(crate) struct Side {
+    pub(crate) lower: u32,
+    pub(crate) upper: u32,
     /// Whether the face has three vertices; one with a repeated corner is an edge or a point.
-    is_whole: bool,
+    pub(crate) is_whole: bool,
     /// Whether the face runs from lower to upper.
-    ascends: bool,
+    pub(crate) ascends: bool,
+    /// Three times the face, plus the corner at which the side begins.
+    pub(crate) begin: u32,
+}
+
+impl Side {
+    /// The corners of the face at the lower and at the upper end, numbered as `begin`.
+    pub(crate) fn corners(&self) -> [u32; 2] {
+        let end = if self.begin % 3 == 2 { self.begin - 2 } else { self.begin + 1 };
+        if self.ascends { [self.begin, end] } else { [end, self.begin] }
+    }
 }
 
 /// The sides of all triangles, sorted by their ends.
@@ -28,14 +32,18 @@ pub(crate) struct HalfEdges {
 
 impl HalfEdges {
     pub(crate) fn new(triangles: &[[u32; 3]]) -> HalfEdges {
-        let sides_of = |&[a, b, c]: &[u32; 3]| {
+        let sides_of = |(begin, &[a, b, c]): (u32, &[u32; 3])| {
             let is_whole = a != b && b != c && c != a;
-            let side = move |(a, b): (u32, u32)| Side { lower: a.min(b), upper: a.max(b), is_whole, ascends: a < b };
-            [(a, b), (b, c), (c, a)].map(side)
+            let side = move |(k, a, b): (u32, u32, u32)| {
+                let begin = begin + k;
+                Side { lower: a.min(b), upper: a.max(b), is_whole, ascends: a < b, begin }
+            };
+            [(0, a, b), (1, b, c), (2, c, a)].map(side)
         };
         let mut sides: Vec<Side> =
-            triangles.iter().flat_map(sides_of).filter(|side| side.lower != side.upper).collect();
-        sides.sort_unstable();
+            (0..).step_by(3).zip(triangles).flat_map(sides_of).filter(|side| side.lower != side.upper).collect();
+        // No two sides are equal: the order is the same for any number of threads.
+        sides.par_sort_unstable();
         HalfEdges { sides }
     }
 
@@ -44,8 +52,16 @@ impl HalfEdges {
         self.groups().map(|group| [group[0].lower, group[0].upper]).collect()
     }
 
+    /// The sides at each edge, those of faces with a repeated corner first.
     fn groups(&self) -> impl Iterator<Item = &[Side]> {
         self.sides.chunk_by(|a, b| (a.lower, a.upper) == (b.lower, b.upper))
+    }
+
+    /// The sides of whole faces at each edge that has any.
+    pub(crate) fn whole(&self) -> impl Iterator<Item = &[Side]> {
+        self.groups()
+            .map(|group| &group[group.partition_point(|side| !side.is_whole)..])
+            .filter(|group| !group.is_empty())
     }
 }
 
@@ -89,59 +105,4 @@ pub(crate) fn components(offsets: &[u32], neighbors: &[u32]) -> (Vec<u32>, usize
         n_components += 1;
     }
     (component, n_components as usize)
-}
-
-/// How often a mesh departs from a closed, consistently oriented surface. None of it is an error. Faces with a repeated
-/// vertex count as degenerate, and not as faces of their edges.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Defects {
-    /// Edges with one face.
-    pub boundary_edges: usize,
-    /// Edges with more than two faces.
-    pub non_manifold_edges: usize,
-    /// Faces with a repeated vertex or without area.
-    pub degenerate_faces: usize,
-    /// Faces whose three vertices occur in an earlier face.
-    pub duplicate_faces: usize,
-    /// Vertices in no face.
-    pub unreferenced_vertices: usize,
-    /// Edges whose two faces run along them in the same direction.
-    pub inconsistent_edges: usize,
-}
-
-pub(crate) fn count_defects(positions: &[DVec3], triangles: &[[u32; 3]], half_edges: &HalfEdges) -> Defects {
-    let mut defects = Defects::default();
-    for group in half_edges.groups() {
-        // Faces with a repeated corner come first, and bound nothing.
-        match &group[group.partition_point(|side| !side.is_whole)..] {
-            [] => {}
-            [_] => defects.boundary_edges += 1,
-            [one, other] => defects.inconsistent_edges += usize::from(one.ascends == other.ascends),
-            _ => defects.non_manifold_edges += 1,
-        }
-    }
-    let mut referenced = vec![false; positions.len()];
-    for face in triangles {
-        face.iter().for_each(|&v| referenced[v as usize] = true);
-        defects.degenerate_faces += usize::from(is_flat(face.map(|v| positions[v as usize])));
-    }
-    defects.unreferenced_vertices = referenced.iter().filter(|&&seen| !seen).count();
-    let mut sorted: Vec<_> = triangles
-        .iter()
-        .map(|&face| {
-            let mut face = face;
-            face.sort_unstable();
-            face
-        })
-        .collect();
-    sorted.sort_unstable();
-    defects.duplicate_faces = sorted.windows(2).filter(|pair| pair[0] == pair[1]).count();
-    defects
-}
-
-/// Whether a triangle has a repeated corner or no area worth the name.
-fn is_flat(corners: [DVec3; 3]) -> bool {
-    let [a, b, c] = unit_sides(corners);
-    let longest = a.length_squared().max(b.length_squared()).max(c.length_squared());
-    a.cross(b).length() <= FLAT * longest
 }

@@ -6,7 +6,7 @@ use pliant_meshfile::MeshFile;
 use pliant_solver::{Defects, Mesh};
 use serde::Serialize;
 
-use crate::document::bounds_of;
+use crate::document::{Finding, bounds_of, findings};
 
 use super::args::InfoOptions;
 use super::console::Console;
@@ -22,6 +22,7 @@ struct Facts {
     mesh: MeshCounts,
     bounds: Bounds,
     defects: DefectCounts,
+    findings: Vec<FindingFacts>,
     parts: Vec<PartFacts>,
     has_uvs: bool,
     has_colors: bool,
@@ -40,12 +41,28 @@ struct Bounds {
 #[derive(Debug, Serialize)]
 struct DefectCounts {
     boundary_edges: usize,
+    borders: usize,
     non_manifold_edges: usize,
+    non_manifold_vertices: usize,
     inconsistent_edges: usize,
     degenerate_faces: usize,
     duplicate_faces: usize,
     unreferenced_vertices: usize,
 }
+
+/// What was found, how bending treats it, and where it is.
+#[derive(Debug, Serialize)]
+struct FindingFacts {
+    kind: &'static str,
+    count: usize,
+    found: String,
+    treatment: &'static str,
+    /// The first vertices concerned, as numbered in the file.
+    vertices: Vec<u32>,
+}
+
+/// As many vertices of a finding as are worth looking at one by one.
+const MOST_EXAMPLES: usize = 10;
 
 #[derive(Debug, Serialize)]
 struct PartFacts {
@@ -79,6 +96,7 @@ fn facts(options: &InfoOptions, file: &MeshFile, mesh: &Mesh) -> Result<Facts, F
         mesh: MeshCounts::new(file, mesh),
         bounds: Bounds { min: min.to_array(), max: max.to_array() },
         defects: count(mesh.defects()),
+        findings: findings(file, mesh).into_iter().map(|finding| located(finding, file, mesh)).collect(),
         parts: parts.collect(),
         has_uvs: file.uvs.is_some(),
         has_colors: file.colors.is_some(),
@@ -87,27 +105,28 @@ fn facts(options: &InfoOptions, file: &MeshFile, mesh: &Mesh) -> Result<Facts, F
     })
 }
 
+fn located(finding: Finding, file: &MeshFile, mesh: &Mesh) -> FindingFacts {
+    let some = finding.vertices(mesh).into_iter().take(MOST_EXAMPLES);
+    let vertices = some.map(|v| file.weld.vertex_of_point[v.index()]).collect();
+    let Finding { kind, count, found, treatment, .. } = finding;
+    FindingFacts { kind, count, found, treatment, vertices }
+}
+
 fn count(defects: Defects) -> DefectCounts {
-    let Defects {
-        boundary_edges,
-        non_manifold_edges,
-        degenerate_faces,
-        duplicate_faces,
-        unreferenced_vertices,
-        inconsistent_edges,
-    } = defects;
     DefectCounts {
-        boundary_edges,
-        non_manifold_edges,
-        inconsistent_edges,
-        degenerate_faces,
-        duplicate_faces,
-        unreferenced_vertices,
+        boundary_edges: defects.boundary_edges,
+        borders: defects.borders,
+        non_manifold_edges: defects.non_manifold_edges,
+        non_manifold_vertices: defects.non_manifold_vertices,
+        inconsistent_edges: defects.inconsistent_edges,
+        degenerate_faces: defects.degenerate_faces,
+        duplicate_faces: defects.duplicate_faces,
+        unreferenced_vertices: defects.unreferenced_vertices,
     }
 }
 
 fn describe(facts: &Facts) -> String {
-    let Facts { file, mesh, bounds, defects, parts, rigidity, warnings, .. } = facts;
+    let Facts { file, mesh, bounds, findings, parts, rigidity, warnings, .. } = facts;
     let mut text = format!("{file}\n{mesh}");
     let mut line = |name: &str, value: String| {
         // Writing to a string cannot fail.
@@ -115,7 +134,13 @@ fn describe(facts: &Facts) -> String {
     };
     let corner = |[x, y, z]: [f64; 3]| format!("({x}, {y}, {z})");
     line("bounds", format!("{} to {}", corner(bounds.min), corner(bounds.max)));
-    line("defects", defects.to_string());
+    if findings.is_empty() {
+        line("found", "nothing unusual".to_owned());
+    }
+    for FindingFacts { found, treatment, vertices, .. } in findings {
+        let place = vertices.first().map(|v| format!(", first at vertex {v}")).unwrap_or_default();
+        line("found", format!("{found}{place} ({treatment})"));
+    }
     match rigidity {
         Some(rigidity) => line("rigidity", rigidity.to_string()),
         None => line("rigidity", "none in the file".to_owned()),
@@ -127,20 +152,4 @@ fn describe(facts: &Facts) -> String {
         line("warning", warning.clone());
     }
     text
-}
-
-impl std::fmt::Display for DefectCounts {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let all = [
-            (self.boundary_edges, "boundary edges"),
-            (self.non_manifold_edges, "non-manifold edges"),
-            (self.inconsistent_edges, "edges between faces of opposite orientation"),
-            (self.degenerate_faces, "degenerate faces"),
-            (self.duplicate_faces, "duplicate faces"),
-            (self.unreferenced_vertices, "unreferenced vertices"),
-        ];
-        let found: Vec<String> =
-            all.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}")).collect();
-        if found.is_empty() { f.write_str("none") } else { f.write_str(&found.join(", ")) }
-    }
 }

@@ -6,6 +6,7 @@
 
 mod commands;
 mod fill;
+mod findings;
 mod history;
 mod model;
 mod scene;
@@ -14,6 +15,7 @@ mod state;
 
 pub use commands::{Command, CommandError, SelectMode};
 pub use fill::region_of_equal_rigidity;
+pub use findings::{Finding, caution, findings};
 pub use history::{History, Snapshot};
 pub(crate) use model::bounds_of;
 pub use model::{Model, ModelError};

@@ -7,6 +7,8 @@ use glam::{DVec3, Vec3};
 use pliant_meshfile::MeshFile;
 use pliant_solver::{Mesh, MeshError, Rigidity, RigidityError};
 
+use super::findings::{Finding, caution, findings};
+
 /// An opened mesh: the file it came from and the surface the solver sees.
 ///
 /// *View space* is world space moved so that the surface's center is the origin; it is what single precision, the
@@ -30,6 +32,8 @@ pub struct Model {
     pub base_colors: Option<Arc<[[u8; 4]]>>,
     /// What the user should know about the file, one sentence each.
     pub warnings: Vec<String>,
+    /// What is unusual about the surface.
+    pub findings: Vec<Finding>,
 }
 
 /// Why a file cannot be edited.
@@ -77,6 +81,8 @@ impl Model {
             }
             None => Rigidity::uniform(mesh.n_vertices(), 1),
         };
+        let findings = findings(&file, &mesh);
+        warnings.extend(caution(&findings));
         let (lo, hi) = bounds_of(mesh.positions());
         let origin = (lo + hi) * 0.5;
         Ok(Model {
@@ -87,6 +93,7 @@ impl Model {
             bounds: ((lo - origin).as_vec3(), (hi - origin).as_vec3()),
             base_colors: base_colors(&file, mesh.n_vertices()),
             warnings,
+            findings,
             mesh: Arc::new(mesh),
             file,
         })

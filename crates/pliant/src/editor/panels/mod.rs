@@ -6,6 +6,7 @@ mod inspector;
 mod learn;
 mod legend;
 mod menu;
+mod mesh_section;
 mod notices;
 mod rail;
 mod sections;
