@@ -7,7 +7,7 @@ use glam::Vec3;
 use image::ImageFormat;
 
 use crate::document::Model;
-use crate::viewport::{Camera, Coloring, Shading, SurfaceFrame, Theme, ViewScene, picture};
+use crate::viewport::{Camera, Coloring, SurfaceFrame, ViewScene, picture};
 
 use super::args::{ColorChoice, RenderOptions};
 use super::console::Console;
@@ -77,29 +77,20 @@ fn scene(model: &Model, rigidity: &[u16], color: ColorChoice) -> ViewScene {
     let triangles = &model.triangles;
     let mut normals = Vec::new();
     pliant_geometry::VertexNormals::new(positions.len(), triangles).compute(&positions, triangles, &mut normals);
+    let coloring = match color {
+        ColorChoice::None => Coloring::Plain,
+        ColorChoice::Rigidity => Coloring::Rigidity,
+        ColorChoice::Energy => Coloring::Energy,
+    };
+    let camera = Camera::framing(model.bounds.0, model.bounds.1);
     ViewScene {
         base_colors: model.base_colors.clone(),
-        triangles: triangles.clone(),
         values: Some(vec![0.0; positions.len()].into()),
-        frame: Arc::new(SurfaceFrame { positions, normals }),
         rigidity: rigidity.into(),
-        selected: None,
-        dots: Arc::new([]),
-        lines: Arc::new([]),
-        coloring: match color {
-            ColorChoice::None => Coloring::Plain,
-            ColorChoice::Rigidity => Coloring::Rigidity,
-            ColorChoice::Energy => Coloring::Energy,
-        },
+        coloring,
         ramp_max: rigidity.iter().copied().max().unwrap_or(RAMP_MAX).max(RAMP_MAX),
-        color_opacity: 1.0,
-        shading: Shading::Smooth,
-        wireframe: false,
         grid: true,
-        theme: Theme::Dark,
-        camera: Camera::framing(model.bounds.0, model.bounds.1),
-        bounds: model.bounds,
-        pixels_per_point: 1.0,
+        ..ViewScene::plain(triangles.clone(), Arc::new(SurfaceFrame { positions, normals }), camera, model.bounds)
     }
 }
 

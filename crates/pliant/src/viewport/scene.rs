@@ -110,6 +110,30 @@ pub struct ViewScene {
 }
 
 impl ViewScene {
+    /// A surface of clay in smooth shading on a dark ground, with nothing over it or under it.
+    pub fn plain(triangles: Arc<[[u32; 3]]>, frame: Arc<SurfaceFrame>, camera: Camera, bounds: (Vec3, Vec3)) -> Self {
+        ViewScene {
+            rigidity: vec![1; frame.positions.len()].into(),
+            triangles,
+            frame,
+            values: None,
+            selected: None,
+            base_colors: None,
+            dots: Arc::new([]),
+            lines: Arc::new([]),
+            coloring: Coloring::Plain,
+            ramp_max: 6,
+            color_opacity: 1.0,
+            shading: Shading::Smooth,
+            wireframe: false,
+            grid: false,
+            theme: Theme::Dark,
+            camera,
+            bounds,
+            pixels_per_point: 1.0,
+        }
+    }
+
     /// Would both give the same picture? Arrays are the same if they are the same allocation.
     pub(super) fn same_picture(&self, other: &ViewScene) -> bool {
         Arc::ptr_eq(&self.triangles, &other.triangles)

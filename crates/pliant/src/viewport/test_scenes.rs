@@ -1,6 +1,6 @@
 //! Scenes for tests.
 
-use super::{Axis, Camera, Coloring, Shading, SurfaceFrame, Theme, ViewScene};
+use super::{Axis, Camera, SurfaceFrame, Theme, ViewScene};
 use glam::Vec3;
 use std::sync::Arc;
 
@@ -19,24 +19,6 @@ pub(super) fn sheet(cells: u32) -> ViewScene {
     let mut camera = Camera::framing(bounds.0, bounds.1);
     camera.look_along(Axis::Front);
     camera.frame(bounds.0, bounds.1);
-    ViewScene {
-        triangles,
-        rigidity: Arc::new([]),
-        frame: Arc::new(SurfaceFrame { normals: vec![Vec3::Z; positions.len()], positions }),
-        values: None,
-        selected: None,
-        base_colors: None,
-        dots: Arc::new([]),
-        lines: Arc::new([]),
-        coloring: Coloring::Plain,
-        ramp_max: 6,
-        color_opacity: 1.0,
-        shading: Shading::Smooth,
-        wireframe: false,
-        grid: false,
-        theme: Theme::Light,
-        camera,
-        bounds,
-        pixels_per_point: 1.0,
-    }
+    let frame = SurfaceFrame { normals: vec![Vec3::Z; positions.len()], positions };
+    ViewScene { theme: Theme::Light, ..ViewScene::plain(triangles, Arc::new(frame), camera, bounds) }
 }

@@ -117,3 +117,22 @@ fn every_sample_opens_and_bends() {
         assert!(document(&session).pose().positions.iter().all(|p| p.is_finite()), "{sample:?}");
     }
 }
+
+#[test]
+fn what_may_spoil_a_bend_is_said_on_opening_and_can_be_looked_at() {
+    let mut positions = vec![DVec3::ZERO, DVec3::X, DVec3::X + DVec3::Y, DVec3::Y];
+    positions.push(DVec3::X * 2.0);
+    let file = MeshFile::from_triangles("folded", positions, vec![[0, 1, 2], [0, 3, 2], [1, 4, 2], [1, 4, 2]]);
+    let mut session = session_with(file);
+    let said = &session.notices.list()[0].text;
+    assert!(
+        said.contains("1 edge with more than two faces, 1 face that repeats an earlier one, 3 edges between"),
+        "{said}"
+    );
+    let findings = &document(&session).model().findings;
+    let finding = findings.iter().find(|finding| finding.kind == "duplicate_faces").expect("found");
+    let vertices = finding.vertices(&document(&session).model().mesh);
+    session.apply(Command::Select(vertices, SelectMode::Replace));
+    let selected: Vec<u32> = document(&session).scene().selection.vertices().iter().map(|v| v.0).collect();
+    assert_eq!(selected, [1, 2, 4], "the corners of the repeated face");
+}
