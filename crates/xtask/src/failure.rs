@@ -31,6 +31,8 @@ pub(crate) enum Failure {
     NotInstalled(String),
     #[error("{variable} names Vulkan drivers that are not there: {files}; unset or correct it")]
     NoNamedDriver { variable: &'static str, files: String },
+    #[error("{0} files were not treated as promised")]
+    Corpus(usize),
     #[error("some tests failed")]
     TestsFailed,
 }

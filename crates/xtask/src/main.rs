@@ -1,8 +1,9 @@
 //! Developer commands: `cargo xtask test` runs every test, `cargo xtask assets` makes the samples anew, `cargo xtask bench`
-//! measures.
+//! measures, `cargo xtask corpus` tries mesh files that people have.
 
 mod assets;
 mod bench;
+mod corpus;
 mod failure;
 mod shapes;
 mod testing;
@@ -35,6 +36,8 @@ enum Task {
     },
     /// Measure the solver and write docs/performance.md
     Bench(bench::Options),
+    /// Open, bend and save every mesh file of some folders, each in processes of its own with limits
+    Corpus(corpus::Options),
 }
 
 fn main() -> ExitCode {
@@ -42,6 +45,7 @@ fn main() -> ExitCode {
         Task::Test { filter } => testing::run(&filter),
         Task::Assets { check } => assets::run(check),
         Task::Bench(options) => bench::run(&options),
+        Task::Corpus(options) => corpus::run(&options),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
