@@ -24,6 +24,9 @@ pub(crate) const ELEMENTS: u64 = 8 * TRIANGLES;
 pub(crate) const NAME_BYTES: usize = 1 << 10;
 /// Bytes of the names of all parts: one name can serve every part of a file.
 pub(crate) const ALL_NAME_BYTES: u64 = 256 << 20;
+/// Bytes that the compressed geometry of one glTF file is decoded to: as many vertices as a model may have with positions,
+/// normals and texture coordinates, and as many triangles. A stream of a kilobyte can stand for gigabytes.
+pub(crate) const DECODED_BYTES: u64 = VERTICES * 32 + TRIANGLES * 12;
 /// Nodes of one glTF scene graph.
 pub(crate) const NODES: u64 = 1_000_000;
 /// Numbers in the keys of one glTF animation: half an hour at 60 frames a second of 25 joints is 10 million.
@@ -65,6 +68,11 @@ impl Purse {
     pub(crate) fn spend(&mut self, n: usize) -> Result<(), Fault> {
         self.spent = self.spent.saturating_add(n as u64);
         check(self.what, self.spent, self.limit)
+    }
+
+    /// What may still be spent.
+    pub(crate) fn left(&self) -> u64 {
+        self.limit.saturating_sub(self.spent)
     }
 
     /// For the names of parts, of which one can serve every part of a file.

@@ -1,6 +1,7 @@
 //! Promises about whole files: what comes back after opening and saving.
 
 mod bad_files;
+mod compressed;
 mod conversion;
 mod gltf_reading;
 mod gltf_saving;
@@ -9,3 +10,5 @@ mod obj_reading;
 mod obj_saving;
 mod poses;
 mod support;
+
+pub(crate) use mutation::{Numbers, mutated};

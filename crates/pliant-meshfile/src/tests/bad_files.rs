@@ -63,7 +63,17 @@ fn bad_documents_are_refused_by_place() {
         ("/nodes/0/children", json!([0]), "node 0: is its own ancestor"),
         ("/nodes/0/children", json!([7]), "node 0: names a child that does not exist"),
         ("/nodes/0/scale", json!([1, 2]), "scale is not 3 finite numbers"),
-        ("/extensionsRequired", json!(["KHR_draco_mesh_compression"]), "KHR_draco_mesh_compression"),
+        (
+            "/meshes/0/primitives/0/extensions",
+            json!({"KHR_draco_mesh_compression": {"bufferView": 1, "attributes": {"POSITION": 0}}}),
+            "mesh 0, primitive 0, Draco compression: cannot be decoded",
+        ),
+        (
+            "/bufferViews/0/extensions",
+            json!({"EXT_meshopt_compression": {"buffer": 0, "byteLength": 60, "byteStride": 12, "count": 6,
+                "mode": "ATTRIBUTES"}}),
+            "bufferView 0, meshopt compression: is of an unknown version",
+        ),
     ];
     for (pointer, value, expected) in cases {
         let (mut document, binary) = seam();

@@ -1,17 +1,11 @@
 //! glTF in, the same glTF out.
 
-use super::support::{assert_near, bent, glb, saved, seam, seam_glb};
+use super::support::{assert_near, bent, document, glb, saved, seam, seam_glb};
 use crate::{Format, MeshFile, from_bytes};
 use glam::DVec3;
-use serde_json::Value;
 
 fn opened(bytes: &[u8]) -> MeshFile {
     from_bytes(bytes, Format::Glb, "test.glb").unwrap_or_else(|error| panic!("{error}"))
-}
-
-fn document(glb: &[u8]) -> Value {
-    let length = u32::from_le_bytes([glb[12], glb[13], glb[14], glb[15]]) as usize;
-    serde_json::from_slice(&glb[20..20 + length]).expect("JSON")
 }
 
 #[test]

@@ -4,10 +4,10 @@ use super::support::{OBJ, seam_glb};
 use crate::{Format, from_bytes};
 
 /// A generator of numbers that are the same in every run (Marsaglia's xorshift).
-pub(super) struct Numbers(pub(super) u64);
+pub(crate) struct Numbers(pub(crate) u64);
 
 impl Numbers {
-    pub(super) fn below(&mut self, n: usize) -> usize {
+    pub(crate) fn below(&mut self, n: usize) -> usize {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;
         self.0 ^= self.0 << 17;
@@ -15,7 +15,7 @@ impl Numbers {
     }
 }
 
-pub(super) fn mutated(original: &[u8], numbers: &mut Numbers) -> Vec<u8> {
+pub(crate) fn mutated(original: &[u8], numbers: &mut Numbers) -> Vec<u8> {
     let mut bytes = original.to_vec();
     for _ in 0..=numbers.below(4) {
         let at = numbers.below(bytes.len());

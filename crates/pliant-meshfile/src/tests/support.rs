@@ -29,6 +29,12 @@ pub(super) fn glb(document: &Value, binary: &[u8]) -> Vec<u8> {
     bytes
 }
 
+/// The document of a GLB file.
+pub(super) fn document(glb: &[u8]) -> Value {
+    let length = u32::from_le_bytes([glb[12], glb[13], glb[14], glb[15]]) as usize;
+    serde_json::from_slice(&glb[20..20 + length]).expect("JSON")
+}
+
 /// Two triangles over a seam (6 vertices, 4 places) with normals, in a scaled and mirrored node, plus what a reader
 /// does not know.
 pub(super) fn seam() -> (Value, Vec<u8>) {

@@ -1,5 +1,6 @@
 //! Accessors: typed lists inside buffers, checked before they are read.
 
+use super::compressed::{Decoded, Plain};
 use super::source::GltfSource;
 use super::{buffers::Buffer, container::Container, json};
 use crate::{Fault, budget};
@@ -11,11 +12,13 @@ pub(super) struct Data<'a> {
     pub(super) document: &'a Value,
     pub(super) buffers: &'a [Buffer],
     pub(super) container: &'a Container,
+    pub(super) decoded: &'a Decoded,
 }
 
 impl<'a> From<&'a GltfSource> for Data<'a> {
     fn from(source: &'a GltfSource) -> Self {
-        Data { document: &source.document, buffers: &source.buffers, container: &source.container }
+        let GltfSource { document, buffers, container, decoded, .. } = source;
+        Data { document, buffers, container, decoded }
     }
 }
 
@@ -43,7 +46,7 @@ impl Component {
         })
     }
 
-    fn size(self) -> u64 {
+    pub(super) fn size(self) -> u64 {
         match self {
             Component::I8 | Component::U8 => 1,
             Component::I16 | Component::U16 => 2,
@@ -62,6 +65,26 @@ impl Component {
             Component::F32 => (f64::from(f32::from_le_bytes([b[0], b[1], b[2], b[3]])), 1.0),
         }
     }
+}
+
+impl Component {
+    /// Appends a number as it is stored, the nearest that can be.
+    pub(super) fn write(self, number: f64, out: &mut Vec<u8>) {
+        match self {
+            Component::I8 => out.extend((number as i8).to_le_bytes()),
+            Component::U8 => out.push(number as u8),
+            Component::I16 => out.extend((number as i16).to_le_bytes()),
+            Component::U16 => out.extend((number as u16).to_le_bytes()),
+            Component::U32 => out.extend((number as u32).to_le_bytes()),
+            Component::F32 => out.extend((number as f32).to_le_bytes()),
+        }
+    }
+}
+
+/// Bytes of a view, and how far apart its elements are where it says so.
+pub(super) struct ViewBytes<'a> {
+    pub(super) bytes: &'a [u8],
+    stride: Option<u64>,
 }
 
 /// Bytes that hold `count` elements, every one of them inside.
@@ -98,7 +121,19 @@ impl<'a> Data<'a> {
         Ok(checked)
     }
 
-    fn accessor_of(self, index: usize, types: &[(&str, u64)], words: &str) -> Result<Accessor<'a>, Fault> {
+    /// Component type, numbers in an element and number of elements as an accessor states them.
+    pub(super) fn declared(self, index: usize) -> Result<(Component, usize, usize), Fault> {
+        let types = [("SCALAR", 1), ("VEC2", 2), ("VEC3", 3), ("VEC4", 4)];
+        let (_, declared) = self.declared_of(index, &types, "SCALAR, VEC2, VEC3 or VEC4")?;
+        Ok(declared)
+    }
+
+    fn declared_of(
+        self,
+        index: usize,
+        types: &[(&str, usize)],
+        words: &str,
+    ) -> Result<(&'a Value, (Component, usize, usize)), Fault> {
         let place = format!("accessor {index}");
         let accessors = json::list(self.document, "accessors")?;
         let accessor = accessors
@@ -112,24 +147,34 @@ impl<'a> Data<'a> {
         let width = width.ok_or_else(|| Fault::at(place.as_str(), format!("its type is not {words}")))?.1;
         let count = json::number(accessor, "count", &place)?.unwrap_or(0);
         budget::check("elements in an accessor", count, budget::CORNERS)?;
-        let size = component.size() * width;
+        Ok((accessor, (component, width, count as usize)))
+    }
+
+    fn accessor_of(self, index: usize, types: &[(&str, usize)], words: &str) -> Result<Accessor<'a>, Fault> {
+        let place = format!("accessor {index}");
+        let (accessor, (component, width, count)) = self.declared_of(index, types, words)?;
+        // Floating-point numbers are what they are, and so are 32-bit ones: the flag is for shorter types only.
+        let short = !matches!(component, Component::U32 | Component::F32);
+        let normalized = short && accessor.get("normalized") == Some(&Value::Bool(true));
+        if let Some(Plain { component, count, bytes }) = self.decoded.accessor(index) {
+            let dense = Some(Strided { bytes, stride: width * component.size() as usize });
+            return Ok(Accessor { component: *component, width, count: *count, normalized, dense, sparse: None });
+        }
+        let size = component.size() * width as u64;
         let offset = json::number(accessor, "byteOffset", &place)?.unwrap_or(0);
         let dense = match accessor.get("bufferView") {
             // Zeros out of nothing: no file behind them bounds their number.
             None => {
-                budget::check("elements in an accessor without data", count, budget::VERTICES)?;
+                budget::check("elements in an accessor without data", count as u64, budget::VERTICES)?;
                 None
             }
-            Some(_) => Some(self.strided(accessor, &place, offset, size, count)?),
+            Some(_) => Some(self.strided(accessor, &place, offset, size, count as u64)?),
         };
         let sparse = match accessor.get("sparse") {
             None => None,
-            Some(sparse) => Some(self.sparse(sparse, &place, size, count)?),
+            Some(sparse) => Some(self.sparse(sparse, &place, size, count as u64)?),
         };
-        // Floating-point numbers are what they are, and so are 32-bit ones: the flag is for shorter types only.
-        let short = !matches!(component, Component::U32 | Component::F32);
-        let normalized = short && accessor.get("normalized") == Some(&Value::Bool(true));
-        Ok(Accessor { component, width: width as usize, count: count as usize, normalized, dense, sparse })
+        Ok(Accessor { component, width, count, normalized, dense, sparse })
     }
 
     fn sparse(self, sparse: &Value, place: &str, size: u64, count: u64) -> Result<(Vec<u32>, Strided<'a>), Fault> {
@@ -164,20 +209,11 @@ impl<'a> Data<'a> {
         let views = json::list(self.document, "bufferViews")?;
         let index = json::reference(holder, "bufferView", place, "view", views.len())?
             .ok_or_else(|| Fault::at(place, "names no bufferView"))?;
-        let (view, view_place) = (&views[index], format!("bufferView {index}"));
-        let buffer = json::reference(view, "buffer", &view_place, "buffer", self.buffers.len())?
-            .ok_or_else(|| Fault::at(view_place.as_str(), "names no buffer"))?;
-        let bytes = self.buffers[buffer].bytes(self.container);
-        let start = json::number(view, "byteOffset", &view_place)?.unwrap_or(0);
-        let length = json::number(view, "byteLength", &view_place)?.unwrap_or(0);
-        let end = start.checked_add(length).filter(|&end| end <= bytes.len() as u64);
-        let view_bytes = end.map(|end| &bytes[start as usize..end as usize]).ok_or_else(|| {
-            Fault::at(view_place.as_str(), format!("reaches beyond its buffer of {} bytes", bytes.len()))
-        })?;
-        let stride = json::number(view, "byteStride", &view_place)?.unwrap_or(size);
+        let ViewBytes { bytes, stride } = self.view(index, place)?;
+        let (stride, length) = (stride.unwrap_or(size), bytes.len() as u64);
         if stride < size || stride > 252.max(size) {
             let problem = format!("byteStride {stride} does not fit elements of {size} bytes");
-            return Err(Fault::at(view_place, problem));
+            return Err(Fault::at(format!("bufferView {index}"), problem));
         }
         let needed = match count {
             0 => Some(offset),
@@ -186,7 +222,32 @@ impl<'a> Data<'a> {
         if needed.is_none_or(|needed| needed > length) {
             return Err(Fault::at(place, format!("reaches beyond bufferView {index} of {length} bytes")));
         }
-        Ok(Strided { bytes: &view_bytes[offset as usize..], stride: stride as usize })
+        Ok(Strided { bytes: &bytes[offset as usize..], stride: stride as usize })
+    }
+
+    /// The bytes of a view, decoded where it is compressed.
+    pub(super) fn view(self, index: usize, place: &str) -> Result<ViewBytes<'a>, Fault> {
+        let views = json::list(self.document, "bufferViews")?;
+        let view = views.get(index).ok_or_else(|| Fault::at(place, format!("names no view: {index}")))?;
+        let place = format!("bufferView {index}");
+        let stride = json::number(view, "byteStride", &place)?;
+        if let Some(decoded) = self.decoded.view(index) {
+            let bytes = decoded.map_err(|fault| Fault::Container(fault.to_owned()))?;
+            return Ok(ViewBytes { bytes, stride });
+        }
+        let buffer = json::reference(view, "buffer", &place, "buffer", self.buffers.len())?;
+        let buffer = buffer.ok_or_else(|| Fault::at(place.as_str(), "names no buffer"))?;
+        let start = json::number(view, "byteOffset", &place)?.unwrap_or(0);
+        let length = json::number(view, "byteLength", &place)?.unwrap_or(0);
+        Ok(ViewBytes { bytes: self.range(buffer, start, length, &place)?, stride })
+    }
+
+    /// `length` bytes of a buffer from `start`.
+    pub(super) fn range(self, buffer: usize, start: u64, length: u64, place: &str) -> Result<&'a [u8], Fault> {
+        let bytes = self.buffers[buffer].bytes(self.container);
+        let end = start.checked_add(length).filter(|&end| end <= bytes.len() as u64);
+        end.map(|end| &bytes[start as usize..end as usize])
+            .ok_or_else(|| Fault::at(place, format!("reaches beyond its buffer of {} bytes", bytes.len())))
     }
 }
 

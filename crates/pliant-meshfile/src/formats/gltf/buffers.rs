@@ -1,6 +1,6 @@
 //! The bytes that accessors point into.
 
-use super::{base64, container::Container, json};
+use super::{base64, compressed, container::Container, json};
 use crate::{Fault, budget, files};
 use serde_json::Value;
 use std::path::Path;
@@ -14,6 +14,8 @@ pub(super) enum Buffer {
     Inline(Vec<u8>),
     /// A file beside the model, read.
     File(Vec<u8>),
+    /// Nowhere: it stands in for compressed data, which is elsewhere.
+    Absent,
 }
 
 impl Buffer {
@@ -21,6 +23,7 @@ impl Buffer {
         match self {
             Buffer::Chunk => container.binary.as_deref().unwrap_or_default(),
             Buffer::Inline(bytes) | Buffer::File(bytes) => bytes,
+            Buffer::Absent => &[],
         }
     }
 }
@@ -29,11 +32,18 @@ impl Buffer {
 pub(super) fn load(document: &Value, container: &Container, folder: Option<&Path>) -> Result<Vec<Buffer>, Fault> {
     let mut total = 0;
     let mut buffers = Vec::new();
-    for (i, buffer) in json::list(document, "buffers")?.iter().enumerate() {
+    let all = json::list(document, "buffers")?;
+    let stands_in = compressed::stand_ins(document, all.len())?;
+    for (i, buffer) in all.iter().enumerate() {
         let place = format!("buffer {i}");
         let length = json::number(buffer, "byteLength", &place)?.unwrap_or(0);
-        let loaded = load_one(buffer, i, container, folder, budget::FILE_BYTES - total)
-            .map_err(|problem| Fault::at(place.as_str(), problem))?;
+        let loaded = match load_one(buffer, i, container, folder, budget::FILE_BYTES - total) {
+            Err(_) if stands_in[i] => {
+                buffers.push(Buffer::Absent);
+                continue;
+            }
+            loaded => loaded.map_err(|problem| Fault::at(place.as_str(), problem))?,
+        };
         let found = loaded.bytes(container).len() as u64;
         if found < length {
             return Err(Fault::at(place, format!("is cut off: it says {length} bytes, {found} are there")));

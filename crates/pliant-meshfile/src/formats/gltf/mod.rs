@@ -8,6 +8,7 @@ mod access;
 mod base64;
 mod buffers;
 mod builder;
+mod compressed;
 mod container;
 mod export;
 mod json;

@@ -4,6 +4,7 @@ mod attributes;
 
 use super::super::{Input, Opened};
 use super::access::{Accessor, Component, Data};
+use super::compressed::Decoded;
 use super::source::{Block, GltfSource, Primitive};
 use super::{buffers, container, json, nodes};
 use crate::shape::{NO_MATERIAL, Part};
@@ -14,13 +15,6 @@ use serde_json::Value;
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
-/// Geometry stored in ways that only a decoder could read: extension and what it does.
-const COMPRESSIONS: &[(&str, &str)] = &[
-    ("KHR_draco_mesh_compression", "Draco compression"),
-    ("EXT_meshopt_compression", "meshopt compression"),
-    ("KHR_meshopt_compression", "meshopt compression"),
-];
-
 /// Reads a glTF or GLB file.
 pub(crate) fn read(input: Input<'_>) -> Result<Opened, Fault> {
     let container = container::parse(input.bytes)?;
@@ -30,7 +24,10 @@ pub(crate) fn read(input: Input<'_>) -> Result<Opened, Fault> {
     let n_meshes = json::list(&document, "meshes")?.len();
     let placements = nodes::placements(&document, n_meshes, &mut warnings)?;
     let transforms = placements.into_iter().map(|placement| placement.transform).collect();
-    let data = Data { document: &document, buffers: &buffers, container: &container };
+    let none = Decoded::default();
+    let data = Data { document: &document, buffers: &buffers, container: &container, decoded: &none };
+    let decoded = Decoded::of(data)?;
+    let data = Data { decoded: &decoded, ..data };
     let mut reader = Reader::new(data, transforms, input.name);
     reader.meshes()?;
     let Reader { blocks, primitives, positions, triangles, rigidity, uvs, colors, parts, .. } = reader;
@@ -43,6 +40,7 @@ pub(crate) fn read(input: Input<'_>) -> Result<Opened, Fault> {
         container,
         document,
         buffers,
+        decoded,
     };
     Ok(Opened {
         positions,
@@ -92,24 +90,7 @@ fn parse_document(bytes: &[u8]) -> Result<Value, Fault> {
         }
         None => return Err(Fault::Container("is not a glTF file: it names no asset version".into())),
     }
-    refuse_compression(&document)?;
     Ok(document)
-}
-
-fn refuse_compression(document: &Value) -> Result<(), Fault> {
-    let required = json::list(document, "extensionsRequired")?;
-    let views = json::list(document, "bufferViews")?;
-    for &(extension, what) in COMPRESSIONS {
-        let used = |object: &Value| object.get("extensions").is_some_and(|all| all.get(extension).is_some());
-        let in_primitive = || {
-            let meshes = json::list(document, "meshes").unwrap_or_default();
-            meshes.iter().filter_map(|mesh| mesh.get("primitives")?.as_array()).flatten().any(used)
-        };
-        if required.iter().any(|name| name == extension) || views.iter().any(used) || in_primitive() {
-            return Err(Fault::Extension { extension, what });
-        }
-    }
-    Ok(())
 }
 
 struct Reader<'a> {

@@ -2,6 +2,7 @@
 
 use super::base64;
 use super::buffers::Buffer;
+use super::compressed;
 use super::source::GltfSource;
 use crate::{Warning, budget, files};
 use serde_json::{Value, json};
@@ -39,7 +40,7 @@ pub(super) fn relocate(source: &GltfSource, to: &Path, glb: bool) -> Relocated {
         let embed = match buffer {
             Buffer::Chunk => !glb,
             Buffer::File(_) => !stays,
-            Buffer::Inline(_) => false,
+            Buffer::Inline(_) | Buffer::Absent => false,
         };
         if embed {
             let uri = data_uri("application/octet-stream", buffer.bytes(&source.container));
@@ -59,32 +60,52 @@ pub(super) fn data_uri(kind: &str, bytes: &[u8]) -> String {
     format!("data:{kind};base64,{}", base64::encode(bytes))
 }
 
-/// Joins all buffers into one, and moves the views.
+/// Joins all buffers that hold something into one, and moves the views; those that hold nothing come behind it.
 fn merge(source: &GltfSource, document: &mut Value) -> Vec<u8> {
     let mut chunk = Vec::new();
-    let mut starts = Vec::new();
-    for buffer in &source.buffers {
+    // Where each buffer goes: its new number, and how far its first byte moves.
+    let mut moves = Vec::new();
+    let mut kept = Vec::new();
+    for (i, buffer) in source.buffers.iter().enumerate() {
+        if matches!(buffer, Buffer::Absent) {
+            kept.extend(document.pointer(&format!("/buffers/{i}")).cloned());
+            moves.push((kept.len(), 0));
+            continue;
+        }
         chunk.resize(chunk.len().next_multiple_of(8), 0);
-        starts.push(chunk.len() as u64);
+        moves.push((0, chunk.len() as u64));
         chunk.extend_from_slice(buffer.bytes(&source.container));
     }
     for view in document.get_mut("bufferViews").and_then(Value::as_array_mut).into_iter().flatten() {
-        let start = view.get("buffer").and_then(Value::as_f64).and_then(|buffer| starts.get(buffer as usize));
-        if let (Some(&start), Some(view)) = (start, view.as_object_mut()) {
-            view.insert("buffer".into(), 0.into());
-            let offset = view.get("byteOffset").and_then(Value::as_f64).unwrap_or(0.0) as u64 + start;
-            if offset > 0 {
-                view.insert("byteOffset".into(), offset.into());
+        move_view(view, &moves);
+        for name in compressed::MESHOPT {
+            if let Some(extension) = view.get_mut("extensions").and_then(|all| all.get_mut(name)) {
+                move_view(extension, &moves);
             }
         }
     }
-    let mut joined = document.pointer("/buffers/0").cloned().unwrap_or_else(|| json!({}));
+    let joined = source.buffers.iter().position(|buffer| !matches!(buffer, Buffer::Absent));
+    let joined = joined.and_then(|first| document.pointer(&format!("/buffers/{first}")).cloned());
+    let mut joined = joined.unwrap_or_else(|| json!({}));
     if let Some(joined) = joined.as_object_mut() {
         joined.shift_remove("uri");
         joined.insert("byteLength".into(), chunk.len().into());
     }
-    document["buffers"] = json!([joined]);
+    kept.insert(0, joined);
+    document["buffers"] = kept.into();
     chunk
+}
+
+/// Moves what names a buffer and a place in it.
+fn move_view(view: &mut Value, moves: &[(usize, u64)]) {
+    let to = view.get("buffer").and_then(Value::as_f64).and_then(|buffer| moves.get(buffer as usize));
+    if let (Some(&(buffer, by)), Some(view)) = (to, view.as_object_mut()) {
+        view.insert("buffer".into(), buffer.into());
+        let offset = view.get("byteOffset").and_then(Value::as_f64).unwrap_or(0.0) as u64 + by;
+        if by > 0 {
+            view.insert("byteOffset".into(), offset.into());
+        }
+    }
 }
 
 fn embed_images(source: &GltfSource, document: &mut Value, warnings: &mut Vec<Warning>) -> bool {

@@ -2,6 +2,7 @@
 
 use super::access::Data;
 use super::builder::Builder;
+use super::compressed::DRACO;
 use super::relocate::relocate;
 use super::source::{Block, GltfSource, Primitive};
 use super::{container, shape};
@@ -39,9 +40,16 @@ pub(super) fn rewrite(source: &GltfSource, edit: &Edit<'_>, to: &Path, format: F
         return pack(source, source.container.json.clone(), place.chunk, glb, to, place.warnings);
     }
     for (mesh, primitive, attribute, accessor) in replaced {
-        let slot = place.document.pointer_mut(&format!("/meshes/{mesh}/primitives/{primitive}/attributes"));
-        if let Some(slot) = slot.and_then(Value::as_object_mut) {
+        let Some(primitive) = place.document.pointer_mut(&format!("/meshes/{mesh}/primitives/{primitive}")) else {
+            continue;
+        };
+        if let Some(slot) = primitive.get_mut("attributes").and_then(Value::as_object_mut) {
             slot.insert(attribute.into(), accessor.into());
+        }
+        // What is listed as compressed would be taken from there. A primitive may have both kinds of attributes.
+        let listed = primitive.get_mut("extensions").and_then(|all| all.get_mut(DRACO)?.get_mut("attributes"));
+        if let Some(listed) = listed.and_then(Value::as_object_mut) {
+            listed.shift_remove(attribute);
         }
     }
     added.attach(&mut place.document, &mut place.chunk);

@@ -1,6 +1,7 @@
 //! A glTF file as it came, and where its vertices are.
 
 use super::buffers::Buffer;
+use super::compressed::Decoded;
 use super::container::Container;
 use glam::{DMat4, DVec3};
 use serde_json::Value;
@@ -14,6 +15,8 @@ pub(super) struct GltfSource {
     pub(super) document: Value,
     /// Bytes of each buffer; buffer 0 of a GLB file without URI is the container's binary chunk.
     pub(super) buffers: Vec<Buffer>,
+    /// What the file holds compressed.
+    pub(super) decoded: Decoded,
     pub(super) blocks: Vec<Block>,
     pub(super) primitives: Vec<Primitive>,
     pub(super) folder: Option<PathBuf>,
