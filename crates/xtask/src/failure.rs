@@ -33,6 +33,22 @@ pub(crate) enum Failure {
     NoNamedDriver { variable: &'static str, files: String },
     #[error("{0} files were not treated as promised")]
     Corpus(usize),
+    #[error("{0}")]
+    Open(pliant_meshfile::OpenError),
+    #[error("{0}")]
+    Save(pliant_meshfile::SaveError),
+    #[error("{}: saved untouched, or read again, it is not what it was", .0.display())]
+    Changed(PathBuf),
+    #[error(
+        "{program} could not be started ({source}): the validator needs node and npm; install `nodejs npm`, then run this again"
+    )]
+    NoNode { program: &'static str, source: std::io::Error },
+    #[error(
+        "npm could not install {0}: see what it said above; the validator comes from the npm registry, which must be within reach once"
+    )]
+    NoValidator(&'static str),
+    #[error("the validator found {0} new errors in what was saved, see above")]
+    Invalid(usize),
     #[error("some tests failed")]
     TestsFailed,
 }

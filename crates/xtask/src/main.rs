@@ -1,5 +1,6 @@
-//! Developer commands: `cargo xtask test` runs every test, `cargo xtask assets` makes the samples anew, `cargo xtask bench`
-//! measures, `cargo xtask corpus` tries mesh files that people have.
+//! Developer commands: `cargo xtask test` runs every test, `cargo xtask assets` makes the samples anew, `cargo xtask
+//! validate` asks the glTF validator, `cargo xtask bench` measures, `cargo xtask corpus` tries mesh files that people
+//! have.
 
 mod assets;
 mod bench;
@@ -7,9 +8,11 @@ mod corpus;
 mod failure;
 mod shapes;
 mod testing;
+mod validating;
 mod vulkan;
 
 use clap::{Parser, Subcommand};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 /// Developer commands of Pliant.
@@ -34,6 +37,11 @@ enum Task {
         #[arg(long)]
         check: bool,
     },
+    /// Hold what is saved as glTF against the Khronos Group's validator (needs node and npm)
+    Validate {
+        /// Mesh files to save, instead of the samples and the test data
+        files: Vec<PathBuf>,
+    },
     /// Measure the solver and write docs/performance.md
     Bench(bench::Options),
     /// Open, bend and save every mesh file of some folders, each in processes of its own with limits
@@ -44,6 +52,7 @@ fn main() -> ExitCode {
     let done = match Arguments::parse().task {
         Task::Test { filter } => testing::run(&filter),
         Task::Assets { check } => assets::run(check),
+        Task::Validate { files } => validating::run(&files),
         Task::Bench(options) => bench::run(&options),
         Task::Corpus(options) => corpus::run(&options),
     };
