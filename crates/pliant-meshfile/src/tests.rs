@@ -5,6 +5,7 @@ mod compressed;
 mod conversion;
 mod gltf_reading;
 mod gltf_saving;
+mod lossless;
 mod mutation;
 mod obj_reading;
 mod obj_saving;

@@ -14,6 +14,7 @@ mod export;
 mod json;
 mod motion;
 mod nodes;
+mod patch;
 mod read;
 mod relocate;
 mod rewrite;

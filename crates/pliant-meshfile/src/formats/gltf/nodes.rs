@@ -27,9 +27,13 @@ pub(super) fn placements(
     let graph = Graph::new(nodes)?;
     let world = graph.world_transforms()?;
     let mut of_mesh: Vec<Option<Placement>> = vec![None; n_meshes];
-    for node in scene_order(document, &graph.children, nodes.len())?.into_iter().chain(0..nodes.len()) {
+    let mut uses = Uses { n_nodes: vec![0; n_meshes], n_shown: 0, multiplied: None };
+    let in_scene = scene_order(document, &graph.children, nodes.len())?;
+    let n_in_scene = in_scene.len();
+    for (i, node) in in_scene.into_iter().chain(0..nodes.len()).enumerate() {
         let place = format!("node {node}");
         let Some(mesh) = json::reference(&nodes[node], "mesh", &place, "mesh", n_meshes)? else { continue };
+        uses.count(&nodes[node], node, mesh, i < n_in_scene);
         if of_mesh[mesh].is_some() {
             continue;
         }
@@ -43,9 +47,62 @@ pub(super) fn placements(
         let transform = if flattened { DMat4::IDENTITY } else { transform };
         of_mesh[mesh] = Some(Placement { node: Some(node), transform, flattened });
     }
+    uses.tell(document, warnings);
     let nowhere = Placement { node: None, transform: DMat4::IDENTITY, flattened: false };
     Ok(of_mesh.into_iter().map(|placement| placement.unwrap_or(nowhere)).collect())
 }
+
+/// How often meshes are used, in the default scene or behind it.
+struct Uses {
+    /// Nodes of the default scene that use each mesh.
+    n_nodes: Vec<usize>,
+    /// Meshes in the default scene.
+    n_shown: usize,
+    /// The first node that stands for many.
+    multiplied: Option<usize>,
+}
+
+impl Uses {
+    fn count(&mut self, node: &Value, index: usize, mesh: usize, in_scene: bool) {
+        if !in_scene {
+            return;
+        }
+        self.n_shown += usize::from(self.n_nodes[mesh] == 0);
+        self.n_nodes[mesh] += 1;
+        let is_many = node.get("extensions").is_some_and(|all| all.get(INSTANCING).is_some());
+        if is_many && self.multiplied.is_none() {
+            self.multiplied = Some(index);
+        }
+    }
+
+    /// Says what a person sees otherwise than in a viewer.
+    fn tell(&self, document: &Value, warnings: &mut Vec<Warning>) {
+        let mut shared = self.n_nodes.iter().enumerate().filter(|&(_, &n)| n > 1);
+        if let Some((mesh, n)) = shared.next() {
+            let name = document.pointer(&format!("/meshes/{mesh}")).and_then(json::name);
+            let name = name.map_or_else(|| format!("mesh {mesh}"), crate::rigidity::quoted);
+            let more = match shared.count() {
+                0 => String::new(),
+                n => format!(", and {n} more like it"),
+            };
+            let text = format!("{name} stands at {n} places in the scene{more}: shown at the first, all bend alike");
+            warnings.push(Warning(text));
+        }
+        if let Some(node) = self.multiplied {
+            let text = format!("node {node} stands for many ({INSTANCING}): its mesh is shown once, all bend alike");
+            warnings.push(Warning(text));
+        }
+        let n_hidden = self.n_nodes.len() - self.n_shown;
+        // A file without any scene is a library of meshes.
+        if n_hidden > 0 && self.n_shown > 0 {
+            let noun = if n_hidden == 1 { "mesh is" } else { "meshes are" };
+            warnings.push(Warning(format!("{n_hidden} {noun} outside the default scene and shown all the same")));
+        }
+    }
+}
+
+/// The extension by which a node places its mesh many times.
+const INSTANCING: &str = "EXT_mesh_gpu_instancing";
 
 /// Of the volume that the longest axis would give, what counts as none: products of transforms that flatten leave the
 /// rounding of double precision, and a mesh a millionth as thick as wide in two directions is no surface either.

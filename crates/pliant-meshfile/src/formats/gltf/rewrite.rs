@@ -5,7 +5,7 @@ use super::builder::Builder;
 use super::compressed::DRACO;
 use super::relocate::relocate;
 use super::source::{Block, GltfSource, Primitive};
-use super::{container, shape};
+use super::{container, patch, shape};
 use crate::formats::{Edit, Output};
 use crate::{Format, SaveError, Warning};
 use glam::{DQuat, DVec3};
@@ -53,8 +53,11 @@ pub(super) fn rewrite(source: &GltfSource, edit: &Edit<'_>, to: &Path, format: F
         }
     }
     added.attach(&mut place.document, &mut place.chunk);
-    let encoded = serde_json::to_vec(&place.document);
-    let json = encoded.map_err(|error| SaveError::Encode { path: to.to_owned(), reason: error.to_string() })?;
+    let json = match patch::patched(&source.container.json, &source.document, &place.document) {
+        Some(text) => text,
+        None => serde_json::to_vec(&place.document)
+            .map_err(|error| SaveError::Encode { path: to.to_owned(), reason: error.to_string() })?,
+    };
     pack(source, json, place.chunk, glb, to, place.warnings)
 }
 
