@@ -12,6 +12,7 @@ mod compressed;
 mod container;
 mod export;
 mod json;
+mod leave_draco;
 mod motion;
 mod nodes;
 mod patch;

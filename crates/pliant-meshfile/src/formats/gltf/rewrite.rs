@@ -1,8 +1,12 @@
 //! The same glTF document with new positions, normals, tangents and rigidity appended, and nothing else touched.
+//!
+//! What else depends on the shape stays as its author made it: the weights of skins, which belong to vertices whatever
+//! their place, and the displacements of morph targets, which add to the bent shape as they added to the old one. Where
+//! bending turned the surface they do not turn along; whether they should only their author could say.
 
 use super::access::Data;
 use super::builder::Builder;
-use super::compressed::DRACO;
+use super::leave_draco::Leaving;
 use super::relocate::relocate;
 use super::source::{Block, GltfSource, Primitive};
 use super::{container, patch, shape};
@@ -39,6 +43,7 @@ pub(super) fn rewrite(source: &GltfSource, edit: &Edit<'_>, to: &Path, format: F
     if replaced.is_empty() && !place.changed {
         return pack(source, source.container.json.clone(), place.chunk, glb, to, place.warnings);
     }
+    let mut leaving = Leaving::new(source);
     for (mesh, primitive, attribute, accessor) in replaced {
         let Some(primitive) = place.document.pointer_mut(&format!("/meshes/{mesh}/primitives/{primitive}")) else {
             continue;
@@ -46,12 +51,9 @@ pub(super) fn rewrite(source: &GltfSource, edit: &Edit<'_>, to: &Path, format: F
         if let Some(slot) = primitive.get_mut("attributes").and_then(Value::as_object_mut) {
             slot.insert(attribute.into(), accessor.into());
         }
-        // What is listed as compressed would be taken from there. A primitive may have both kinds of attributes.
-        let listed = primitive.get_mut("extensions").and_then(|all| all.get_mut(DRACO)?.get_mut("attributes"));
-        if let Some(listed) = listed.and_then(Value::as_object_mut) {
-            listed.shift_remove(attribute);
-        }
+        leaving.strike(primitive, attribute, &mut added);
     }
+    leaving.finish(&mut place.document);
     added.attach(&mut place.document, &mut place.chunk);
     let json = match patch::patched(&source.container.json, &source.document, &place.document) {
         Some(text) => text,

@@ -55,9 +55,8 @@ impl Decoder<'_, '_> {
         let view = json::reference(extension, "bufferView", place, "view", n_views)?;
         let view = view.ok_or_else(|| fault("names no bufferView".into()))?;
         let n_accessors = json::list(self.data.document, "accessors")?.len();
-        if let Some(accessor) = json::reference(primitive, "indices", place, "accessor", n_accessors)? {
-            self.accessor(accessor, (view, None), place)?;
-        }
+        let indices = json::reference(primitive, "indices", place, "accessor", n_accessors)?;
+        self.accessor(indices.ok_or_else(|| fault("has no indices".into()))?, (view, None), place)?;
         let Some(attributes) = primitive.get("attributes") else { return Ok(()) };
         for name in extension.get("attributes").and_then(Value::as_object).into_iter().flat_map(|map| map.keys()) {
             let Some(accessor) = json::reference(attributes, name, place, "accessor", n_accessors)? else { continue };
