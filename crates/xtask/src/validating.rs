@@ -61,7 +61,7 @@ pub(crate) fn run(files: &[PathBuf]) -> Result<(), Failure> {
     if n_worse > 0 { Err(Failure::Invalid(n_worse)) } else { Ok(()) }
 }
 
-/// The samples, the test data of the mesh files, and each sample as OBJ.
+/// The samples, the test data of the mesh files, and each of them as OBJ.
 fn own_files(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     let mut files = Vec::new();
     let data = assets::folder().join("../crates/pliant-meshfile/src/tests/data");
@@ -70,10 +70,9 @@ fn own_files(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
         files.extend(listed.flatten().map(|entry| entry.path()).filter(|path| is_gltf(path)));
     }
     files.sort();
-    let samples: Vec<PathBuf> = files.iter().filter(|file| file.starts_with(assets::folder())).cloned().collect();
-    for sample in samples {
-        let mesh = pliant_meshfile::open(&sample).map_err(Failure::Open)?;
-        let path = folder.join(sample.file_stem().unwrap_or_default()).with_extension("obj");
+    for file in files.clone() {
+        let mesh = pliant_meshfile::open(&file).map_err(Failure::Open)?;
+        let path = folder.join(file.file_stem().unwrap_or_default()).with_extension("obj");
         mesh.save(&path, &mesh.points(), None).map_err(Failure::Save)?;
         files.push(path);
     }
