@@ -24,6 +24,17 @@ for (const level of ['medium', 'high']) {
     await document.transform(meshopt({ encoder: MeshoptEncoder, level }));
     await io.write(`meshopt-${level}.glb`, document);
 }
+// What the original decoder makes of them: the numbers of all vertices in their order, and the indices, as one checksum.
+const checksums = {};
+function checksum(...arrays) {
+    let sum = 0xcbf29ce484222325n;
+    for (const array of arrays) {
+        for (const byte of new Uint8Array(array.buffer, array.byteOffset, array.byteLength)) {
+            sum = BigInt.asUintN(64, (sum ^ BigInt(byte)) * 0x100000001b3n);
+        }
+    }
+    return sum.toString(16);
+}
 for (const method of ['EDGEBREAKER', 'SEQUENTIAL']) {
     const document = await io.read(sample);
     document.createExtension(KHRDracoMeshCompression).setRequired(true).setEncoderOptions({
@@ -31,8 +42,13 @@ for (const method of ['EDGEBREAKER', 'SEQUENTIAL']) {
         encodeSpeed: method === 'EDGEBREAKER' ? 0 : 5,
         decodeSpeed: method === 'EDGEBREAKER' ? 0 : 5,
     });
-    await io.write(`draco-${method.toLowerCase()}.glb`, document);
+    const name = `draco-${method.toLowerCase()}`;
+    await io.write(`${name}.glb`, document);
+    const primitive = (await io.read(`${name}.glb`)).getRoot().listMeshes()[0].listPrimitives()[0];
+    const array = (semantic) => Float32Array.from(primitive.getAttribute(semantic).getArray());
+    checksums[name] = checksum(array('POSITION'), array('NORMAL'), Uint32Array.from(primitive.getIndices().getArray()));
 }
+writeFileSync('draco-checksums.json', JSON.stringify(checksums, null, 1) + '\n');
 
 // Single streams of every mode, version and filter, with what the original decoder makes of them.
 const document = await io.read(sample);

@@ -171,3 +171,37 @@ fn scalar(kind: DataType, b: &[u8]) -> Option<f64> {
         _ => return None,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::{access::Data, buffers, container};
+    use super::super::Decoded;
+    use serde_json::Value;
+
+    /// The script beside the data made both files with the original encoder and the checksums with its decoder.
+    #[test]
+    fn decoded_numbers_are_those_of_the_original_decoder() {
+        let checksums: Value =
+            serde_json::from_str(include_str!("../../../tests/data/draco-checksums.json")).expect("JSON");
+        let edgebreaker = include_bytes!("../../../tests/data/draco-edgebreaker.glb").as_slice();
+        let sequential = include_bytes!("../../../tests/data/draco-sequential.glb").as_slice();
+        for (name, bytes) in [("draco-edgebreaker", edgebreaker), ("draco-sequential", sequential)] {
+            let container = container::parse(bytes.to_vec()).expect("a GLB file");
+            let document: Value = serde_json::from_slice(&container.json).expect("JSON");
+            let buffers = buffers::load(&document, &container, None).expect("buffers");
+            let none = Decoded::default();
+            let data = Data { document: &document, buffers: &buffers, container: &container, decoded: &none };
+            let decoded = Decoded::of(data).expect("Draco data");
+            let primitive = &document["meshes"][0]["primitives"][0];
+            let places = ["/attributes/POSITION", "/attributes/NORMAL", "/indices"];
+            let bytes = places.iter().flat_map(|place| {
+                let accessor = primitive.pointer(place).and_then(Value::as_u64).expect(place);
+                &decoded.accessor(accessor as usize).expect(place).bytes
+            });
+            // Fowler, Noll and Vo's checksum.
+            let sum = |sum: u64, &byte: &u8| (sum ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+            let got = bytes.fold(0xcbf2_9ce4_8422_2325, sum);
+            assert_eq!(format!("{got:x}"), checksums[name], "{name}");
+        }
+    }
+}
