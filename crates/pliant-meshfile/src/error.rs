@@ -15,7 +15,10 @@ pub enum OpenError {
         source: std::io::Error,
     },
     /// The name ends like no format that is known.
-    #[error("{}: not a mesh file by its name; OBJ (.obj), glTF (.gltf) and GLB (.glb) can be opened", path.display())]
+    #[error(
+        "{}: not a mesh file by its name; OBJ (.obj), glTF (.gltf), GLB (.glb), PLY (.ply), STL (.stl) and OFF (.off) can be opened",
+        path.display()
+    )]
     UnknownFormat {
         /// The file.
         path: PathBuf,
@@ -93,7 +96,7 @@ pub enum Fault {
         value: String,
     },
     /// A mesh file was given for its rigidity and carries none.
-    #[error("carries no rigidity (no _RIGIDITY attribute and no sidecar)")]
+    #[error("carries no rigidity (no _RIGIDITY attribute, rigidity property or sidecar)")]
     NoRigidity,
 }
 
@@ -119,7 +122,7 @@ pub enum SaveError {
         source: std::io::Error,
     },
     /// The name ends like no format that can be written.
-    #[error("{}: not a mesh file by its name; use .obj, .gltf or .glb", path.display())]
+    #[error("{}: not a mesh file by its name; use .obj, .gltf, .glb, .ply, .stl or .off", path.display())]
     UnknownFormat {
         /// The target.
         path: PathBuf,

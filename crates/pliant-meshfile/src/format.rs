@@ -11,13 +11,27 @@ pub enum Format {
     Gltf,
     /// glTF 2.0, one binary file.
     Glb,
+    /// Polygon File Format of Stanford, text or binary.
+    Ply,
+    /// Triangles without sharing, text or binary.
+    Stl,
+    /// Object File Format of Geomview, text.
+    Off,
 }
 
 impl Format {
-    const ALL: [Format; 3] = [Format::Obj, Format::Gltf, Format::Glb];
+    const ALL: [Format; 6] = [Format::Obj, Format::Gltf, Format::Glb, Format::Ply, Format::Stl, Format::Off];
 
     /// Endings of the files that can be opened, for dialogs.
-    pub const EXTENSIONS: &[&str] = &[Format::Obj.extension(), Format::Gltf.extension(), Format::Glb.extension()];
+    pub const EXTENSIONS: &[&str] = &{
+        let mut extensions = [""; Format::ALL.len()];
+        let mut i = 0;
+        while i < extensions.len() {
+            extensions[i] = Format::ALL[i].extension();
+            i += 1;
+        }
+        extensions
+    };
 
     /// The ending of its files' names, without the dot.
     pub const fn extension(self) -> &'static str {
@@ -25,6 +39,9 @@ impl Format {
             Format::Obj => "obj",
             Format::Gltf => "gltf",
             Format::Glb => "glb",
+            Format::Ply => "ply",
+            Format::Stl => "stl",
+            Format::Off => "off",
         }
     }
 

@@ -187,22 +187,29 @@ impl MeshFile {
         };
         let mut all = output.beside;
         if entry.rigidity_in_sidecar {
-            all.extend(self.sidecar(&edit, to, &mut output.warnings));
+            all.extend(self.sidecar(&edit, to, output.origin.as_deref(), &mut output.warnings));
         }
         all.push((to.to_owned(), output.bytes));
         files::write_all(&all)?;
         Ok(output.warnings)
     }
 
-    /// The sidecar that belongs beside `to`, if any does.
-    fn sidecar(&self, edit: &Edit<'_>, to: &Path, warnings: &mut Vec<Warning>) -> Option<(PathBuf, Vec<u8>)> {
+    /// The sidecar that belongs beside `to`, if any does. `origin` as in [`Output`].
+    fn sidecar(
+        &self,
+        edit: &Edit<'_>,
+        to: &Path,
+        origin: Option<&[u32]>,
+        warnings: &mut Vec<Warning>,
+    ) -> Option<(PathBuf, Vec<u8>)> {
         let sidecar = rigidity::sidecar_of(to);
         // What was read from one sidecar goes on in the next.
         if let Some(rigidity) = edit.rigidity.as_ref().or(self.rigidity.as_ref()) {
-            return Some((sidecar, rigidity::to_json(rigidity)));
+            let of_new = |origin: &[u32]| origin.iter().map(|&vertex| rigidity[vertex as usize]).collect::<Vec<_>>();
+            return Some((sidecar, rigidity::to_json(&origin.map_or_else(|| rigidity.clone(), of_new))));
         }
         // One that another model left would be read as this one's.
-        let ones = rigidity::to_json(&vec![1; self.positions.len()]);
+        let ones = rigidity::to_json(&vec![1; origin.map_or(self.positions.len(), <[u32]>::len)]);
         let is_stale = files::is_taken(&sidecar)
             && files::read_inside(files::folder_of(&sidecar), &sidecar, budget::TEXT_BYTES).as_ref() != Ok(&ones);
         if !is_stale {
@@ -215,8 +222,10 @@ impl MeshFile {
 
     fn convert(&self, edit: &Edit<'_>, to: &Path, format: Format) -> Result<Output, SaveError> {
         let shape = self.source.shape(edit);
-        let mut output = (entry(format).write)(&shape, to)?;
-        let left: Vec<&str> = shape.left_behind.clone();
+        let entry = entry(format);
+        let mut output = (entry.write)(&shape, to)?;
+        let mut left: Vec<&str> = shape.left_behind.clone();
+        left.extend(entry.holds.lost(&shape));
         if !left.is_empty() {
             output.warnings.push(Warning(format!("not carried over into {}: {}", to.display(), left.join(", "))));
         }

@@ -13,7 +13,8 @@ pub(crate) const MAX_TESTS: u64 = 300_000_000;
 
 /// Appends `corners.len() - 2` triangles of local corner indices (0-based) that cover the polygon, in its orientation.
 ///
-/// Takes what it needs from `tests`; without any left it cuts a fan.
+/// The first triangle begins with corner 0, so that the polygon can be listed as it was. Takes what it needs from
+/// `tests`; without any left it cuts a fan.
 pub(crate) fn triangulate(corners: &[DVec3], tests: &mut u64, out: &mut Vec<[u32; 3]>) {
     let n = corners.len();
     if n == 3 {
@@ -30,7 +31,14 @@ pub(crate) fn triangulate(corners: &[DVec3], tests: &mut u64, out: &mut Vec<[u32
         fan(&(0..n).collect::<Vec<_>>(), out);
         return;
     }
+    let start = out.len();
     clip_ears(&flat, reflex, tests, out);
+    let cut = &mut out[start..];
+    if let Some(first) = cut.iter().position(|triangle| triangle.contains(&0)) {
+        cut.swap(0, first);
+        let turns = cut[0].iter().position(|&corner| corner == 0).unwrap_or(0);
+        cut[0].rotate_left(turns);
+    }
 }
 
 /// Fan around corner 0 of `ring`.
@@ -111,6 +119,7 @@ mod tests {
         let mut triangles = Vec::new();
         triangulate(outline, &mut MAX_TESTS.clone(), &mut triangles);
         assert_eq!(triangles.len(), outline.len() - 2);
+        assert_eq!(triangles[0][0], 0, "the first triangle begins with the first corner");
         triangles
             .iter()
             .map(|t| {

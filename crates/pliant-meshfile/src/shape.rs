@@ -3,7 +3,7 @@
 use glam::{DVec3, Vec2, Vec3};
 use std::ops::Range;
 
-/// A named piece of a file: a group of OBJ, a primitive of glTF.
+/// A named piece of a file: a group of OBJ, a primitive of glTF, a solid of STL.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Part {
     /// As in the file, or made up from its place there.
@@ -51,10 +51,22 @@ pub(crate) struct Shape {
     pub(crate) normals: Vec<Vec3>,
     pub(crate) colors: Option<Vec<[f32; 4]>>,
     pub(crate) triangles: Vec<[Corner; 3]>,
+    /// Triangles that each polygon of more than three corners was cut into, ascending.
+    pub(crate) polygons: Vec<Range<u32>>,
     pub(crate) parts: Vec<ShapePart>,
     pub(crate) materials: Vec<Material>,
     /// One r per position.
     pub(crate) rigidity: Option<Vec<u16>>,
     /// What the source holds that a shape does not, in words that end a sentence: "textures", "skins".
     pub(crate) left_behind: Vec<&'static str>,
+}
+
+/// Whether single precision, which counts from the origin, would round positions by more than a millionth of the
+/// mesh's extent (finer than any scan), as with coordinates of a map.
+pub(crate) fn is_far(positions: &[DVec3]) -> bool {
+    let Some(&first) = positions.first() else { return false };
+    let (low, high) = positions.iter().fold((first, first), |(low, high), &p| (low.min(p), high.max(p)));
+    // Half the distance of neighbors in single precision is 2⁻²⁴ of a number.
+    let rounding = low.abs().max(high.abs()).max_element() * 2f64.powi(-24);
+    rounding > 1e-6 * (high - low).max_element()
 }

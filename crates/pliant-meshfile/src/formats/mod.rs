@@ -1,13 +1,23 @@
 //! What each format must offer, and the table of them.
 
+mod faces;
 mod gltf;
+mod holds;
 mod obj;
+mod off;
+mod outlines;
+mod ply;
 mod source;
+mod split;
+mod stl;
+mod turning;
+mod words;
 
 pub(crate) use source::{Before, Broken, Edit, Input, Motion, Opened, Output, Source};
 
 use crate::shape::Shape;
 use crate::{Fault, Format, SaveError};
+use holds::Holds;
 use std::path::{Path, PathBuf};
 
 /// What the rest of the crate asks of a format.
@@ -21,16 +31,26 @@ pub(crate) struct Entry {
     pub(crate) beside: fn(&Path) -> Vec<PathBuf>,
     /// Whether r is kept in a sidecar, for want of a place in the file.
     pub(crate) rigidity_in_sidecar: bool,
+    /// What of a shape `write` can put into a file.
+    pub(crate) holds: Holds,
 }
 
 const TABLE: &[Entry] = &[
-    Entry { format: Format::Obj, read: obj::read, write: obj::write, beside: obj::beside, rigidity_in_sidecar: true },
+    Entry {
+        format: Format::Obj,
+        read: obj::read,
+        write: obj::write,
+        beside: obj::beside,
+        rigidity_in_sidecar: true,
+        holds: Holds { alpha: false, ..Holds::ALL },
+    },
     Entry {
         format: Format::Gltf,
         read: gltf::read,
         write: gltf::write,
         beside: |_| Vec::new(),
         rigidity_in_sidecar: false,
+        holds: Holds { polygons: false, ..Holds::ALL },
     },
     Entry {
         format: Format::Glb,
@@ -38,6 +58,31 @@ const TABLE: &[Entry] = &[
         write: gltf::write,
         beside: |_| Vec::new(),
         rigidity_in_sidecar: false,
+        holds: Holds { polygons: false, ..Holds::ALL },
+    },
+    Entry {
+        format: Format::Ply,
+        read: ply::read,
+        write: ply::write,
+        beside: |_| Vec::new(),
+        rigidity_in_sidecar: false,
+        holds: Holds { parts: false, materials: false, ..Holds::ALL },
+    },
+    Entry {
+        format: Format::Stl,
+        read: stl::read,
+        write: stl::write,
+        beside: |_| Vec::new(),
+        rigidity_in_sidecar: true,
+        holds: Holds::TRIANGLES,
+    },
+    Entry {
+        format: Format::Off,
+        read: off::read,
+        write: off::write,
+        beside: |_| Vec::new(),
+        rigidity_in_sidecar: true,
+        holds: Holds { parts: false, materials: false, ..Holds::ALL },
     },
 ];
 

@@ -113,4 +113,6 @@ pub(crate) struct Output {
     /// Further files that belong to it.
     pub(crate) beside: Vec<(PathBuf, Vec<u8>)>,
     pub(crate) warnings: Vec<Warning>,
+    /// The file vertex that each vertex of the new file was, where they are not the same.
+    pub(crate) origin: Option<Vec<u32>>,
 }

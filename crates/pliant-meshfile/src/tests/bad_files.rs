@@ -119,7 +119,7 @@ fn missing_and_foreign_files_are_refused_by_name() {
     let path = folder.path().join("notes.txt");
     std::fs::write(&path, "text").expect("a file");
     let error = open(&path).expect_err("text").to_string();
-    assert!(error.contains("OBJ (.obj), glTF (.gltf) and GLB (.glb) can be opened"), "{error}");
+    assert!(error.contains("GLB (.glb), PLY (.ply), STL (.stl) and OFF (.off) can be opened"), "{error}");
     let path = folder.path().join("folder.obj");
     std::fs::create_dir(&path).expect("a folder");
     let error = open(&path).expect_err("a folder").to_string();

@@ -8,16 +8,16 @@ use super::container;
 use super::relocate::data_uri;
 use crate::Format;
 use crate::formats::Output;
-use crate::shape::{Corner, Material, NONE, Shape};
+use crate::formats::split::Split;
+use crate::shape::{Corner, Material, Shape};
 use crate::{SaveError, normals};
 use glam::{Vec2, Vec3};
 use serde_json::{Value, json};
-use std::collections::HashMap;
 use std::path::Path;
 
 /// Writes a document that depends on the shape alone.
 pub(crate) fn write(shape: &Shape, to: &Path) -> Result<Output, SaveError> {
-    let vertices = Vertices::of(shape);
+    let vertices = Split::of(shape);
     let mut builder = Builder::default();
     let attributes = attributes(shape, &vertices, &mut builder, to)?;
     let mut primitives = Vec::new();
@@ -60,7 +60,7 @@ pub(crate) fn write(shape: &Shape, to: &Path) -> Result<Output, SaveError> {
     } else {
         json
     };
-    Ok(Output { bytes, beside: Vec::new(), warnings: Vec::new() })
+    Ok(Output { bytes, beside: Vec::new(), warnings: Vec::new(), origin: None })
 }
 
 fn material(material: &Material) -> Value {
@@ -77,37 +77,7 @@ fn material(material: &Material) -> Value {
     value
 }
 
-/// Vertices of the new file: which old vertex, texture coordinate and normal each one has.
-struct Vertices {
-    corners: Vec<Corner>,
-    triangles: Vec<[u32; 3]>,
-}
-
-impl Vertices {
-    fn of(shape: &Shape) -> Vertices {
-        let unused = |vertex| Corner { vertex, uv: NONE, normal: NONE };
-        let mut corners: Vec<Corner> = (0..shape.positions.len() as u32).map(unused).collect();
-        let mut taken = vec![false; corners.len()];
-        let mut copies: HashMap<Corner, u32> = HashMap::new();
-        let mut index_of = |corner: Corner| -> u32 {
-            let first = corner.vertex as usize;
-            if !std::mem::replace(&mut taken[first], true) {
-                corners[first] = corner;
-            }
-            if corners[first] == corner {
-                return corner.vertex;
-            }
-            *copies.entry(corner).or_insert_with(|| {
-                corners.push(corner);
-                corners.len() as u32 - 1
-            })
-        };
-        let triangles = shape.triangles.iter().map(|t| t.map(&mut index_of)).collect();
-        Vertices { corners, triangles }
-    }
-}
-
-fn attributes(shape: &Shape, vertices: &Vertices, builder: &mut Builder, to: &Path) -> Result<Value, SaveError> {
+fn attributes(shape: &Shape, vertices: &Split, builder: &mut Builder, to: &Path) -> Result<Value, SaveError> {
     let mut positions = Vec::with_capacity(vertices.corners.len());
     for corner in &vertices.corners {
         let position = shape.positions[corner.vertex as usize].as_vec3();

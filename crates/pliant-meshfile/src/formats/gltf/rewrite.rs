@@ -79,7 +79,7 @@ fn pack(
     } else {
         json
     };
-    Ok(Output { bytes, beside: Vec::new(), warnings })
+    Ok(Output { bytes, beside: Vec::new(), warnings, origin: None })
 }
 
 /// The first vertex whose local position does not fit single precision.

@@ -93,6 +93,7 @@ pub(super) fn shape(source: &GltfSource, edit: &Edit<'_>) -> Shape {
         normals,
         colors: mesh.colors.clone(),
         triangles,
+        polygons: Vec::new(),
         parts,
         materials: materials.iter().enumerate().map(material).collect(),
         rigidity: edit.rigidity.clone().or_else(|| mesh.rigidity.clone()),

@@ -1,6 +1,7 @@
 //! A new OBJ file of a mesh that came from elsewhere.
 
 use crate::formats::Output;
+use crate::formats::outlines::Outlines;
 use crate::shape::{Corner, Material, NONE, Shape};
 use crate::{SaveError, files};
 use std::collections::HashSet;
@@ -22,17 +23,22 @@ pub(crate) fn write(shape: &Shape, to: &Path) -> Result<Output, SaveError> {
         beside.push((library, material_library(&mark, &names, &shape.materials).into_bytes()));
     }
     write_lists(&mut text, shape);
+    let outlines = Outlines::of(&shape.triangles, &shape.polygons);
     for part in &shape.parts {
         line(&mut text, format_args!("o {}", one_line(&part.name)));
         if let Some(name) = part.material.and_then(|m| names.get(m)) {
             line(&mut text, format_args!("usemtl {name}"));
         }
-        for triangle in &shape.triangles[part.triangles.clone()] {
-            let [a, b, c] = triangle.map(corner_text);
-            line(&mut text, format_args!("f {a} {b} {c}"));
+        for face in outlines.of_range(part.triangles.clone()) {
+            text.push('f');
+            for &corner in face {
+                text.push(' ');
+                text.push_str(&corner_text(corner));
+            }
+            text.push('\n');
         }
     }
-    Ok(Output { bytes: text.into_bytes(), beside, warnings: Vec::new() })
+    Ok(Output { bytes: text.into_bytes(), beside, warnings: Vec::new(), origin: None })
 }
 
 fn line(text: &mut String, content: std::fmt::Arguments<'_>) {

@@ -78,9 +78,8 @@ fn display_uvs(parsed: &parse::Parsed) -> Option<Vec<Vec2>> {
 impl ObjSource {
     /// What a shape does not keep of this very file.
     fn left_behind(&self) -> Vec<&'static str> {
-        let polygons = (!self.polygons.is_empty()).then_some("polygons of more than three corners");
         let materials = (!self.libraries.is_empty()).then_some("textures and material settings beyond the base color");
-        polygons.into_iter().chain(materials).collect()
+        materials.into_iter().collect()
     }
 }
 
@@ -104,6 +103,7 @@ impl Source for ObjSource {
             normals,
             colors: edit.mesh.colors.clone(),
             triangles: edit.mesh.triangles.iter().zip(&self.corners).map(join).collect(),
+            polygons: self.polygons.clone(),
             parts: self.parts.clone(),
             materials: self.materials.clone(),
             rigidity: edit.rigidity.clone().or_else(|| edit.mesh.rigidity.clone()),

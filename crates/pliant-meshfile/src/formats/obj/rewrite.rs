@@ -37,7 +37,7 @@ pub(super) fn rewrite(source: &ObjSource, edit: &Edit<'_>, to: &Path) -> Result<
         }
     }
     bytes.extend_from_slice(&source.bytes[copied..]);
-    Ok(Output { bytes, beside: Vec::new(), warnings })
+    Ok(Output { bytes, beside: Vec::new(), warnings, origin: None })
 }
 
 /// Every normal of the file for the new shape, and whether it changed.
