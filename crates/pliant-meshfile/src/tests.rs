@@ -9,7 +9,10 @@ mod lossless;
 mod mutation;
 mod obj_reading;
 mod obj_saving;
+mod off;
+mod ply;
 mod poses;
+mod stl;
 mod support;
 
 pub(crate) use mutation::{Numbers, mutated};

@@ -101,7 +101,7 @@ impl Word<'_> {
     pub(super) fn whole(&self) -> Option<u64> {
         let digits = |n: u64, &byte: &u8| byte.is_ascii_digit().then(|| n * 10 + u64::from(byte - b'0'));
         // Eighteen digits do not overflow.
-        if self.text.len() <= 18 {
+        if (1..=18).contains(&self.text.len()) {
             if let Some(number) = self.text.iter().try_fold(0, digits) {
                 return Some(number);
             }

@@ -4,7 +4,7 @@ use super::support::{glb, seam};
 use crate::{Format, from_bytes, open};
 use serde_json::{Value, json};
 
-fn refused(bytes: &[u8], format: Format, expected: &str) {
+pub(super) fn refused(bytes: &[u8], format: Format, expected: &str) {
     let error = match from_bytes(bytes, format, "bad") {
         Ok(_) => panic!("opened, expected: {expected}"),
         Err(error) => error.to_string(),

@@ -1,6 +1,6 @@
 //! From one format to another, and files made from nothing.
 
-use super::support::{OBJ, glb, obj, saved, seam, seam_glb};
+use super::support::{OBJ, assert_near, bent, glb, obj, saved, seam, seam_glb};
 use crate::{Format, MeshFile, from_bytes};
 use glam::DVec3;
 use serde_json::json;
@@ -33,7 +33,7 @@ fn a_glb_becomes_an_obj_with_seams_normals_and_materials() {
 fn generated_meshes_are_saved_alike_every_time() {
     let positions = vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
     let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
-    for name in ["t.glb", "t.gltf", "t.obj"] {
+    for name in ["t.glb", "t.gltf", "t.obj", "t.ply", "t.off"] {
         let file = MeshFile::from_triangles("tetrahedron", positions.clone(), triangles.clone());
         let (first, again) = saved(&file, name, &file.points(), Some(&[1, 1, 1, 9]));
         let (second, _) = saved(&file, name, &file.points(), Some(&[1, 1, 1, 9]));
@@ -128,4 +128,105 @@ fn an_obj_of_a_glb_names_what_is_lost_and_only_that() {
     document["animations"] = json!([{}]);
     let expected = "tangents, further texture coordinates, lines and points, morph targets, animations";
     assert_eq!(warning(&document, &binary), expected);
+}
+
+/// A concave pentagon, a quad and a triangle around a corner, with colors.
+const POLYGONS: &str = "v 0 0 0 1 0 0\nv 2 0 0 0 1 0\nv 1 0.5 0 0 0 1\nv 2 2 0 1 1 0\nv 0 2 0.1 0 1 1\nv 0 0 3 1 1 1\n\
+v 0.1 2 3 0 0 0\no Thing\nf 1 2 3 4 5\nf 1 5 7 6\nf 2 1 6\n";
+
+fn names() -> [&'static str; 6] {
+    ["out.obj", "out.gltf", "out.glb", "out.ply", "out.stl", "out.off"]
+}
+
+#[test]
+fn every_format_becomes_every_other_with_its_places_triangles_and_rigidity() {
+    let start = obj(POLYGONS);
+    let r: Vec<u16> = (1..=7).collect();
+    for first in names() {
+        let (_, from) = saved(&start, first, &start.points(), Some(&r));
+        for second in names() {
+            let (_, to) = saved(&from, second, &bent(&from.points()), None);
+            let places = |file: &MeshFile| {
+                file.triangles.iter().flatten().map(|&v| file.positions[v as usize]).collect::<Vec<_>>()
+            };
+            let expected = bent(&from.points());
+            let expected: Vec<DVec3> = from.point_triangles().iter().flatten().map(|&p| expected[p as usize]).collect();
+            assert_near(&places(&to), &expected, 4.0 * f64::from(f32::EPSILON));
+            let of_corners = |file: &MeshFile| {
+                let (r, disagree) = file.point_rigidity().expect("rigidity");
+                assert!(!disagree, "{first} to {second}");
+                file.point_triangles().iter().flatten().map(|&p| r[p as usize]).collect::<Vec<_>>()
+            };
+            assert_eq!(of_corners(&to), of_corners(&from), "{first} to {second}");
+            let expected: Vec<u16> = start.triangles.iter().flatten().map(|&v| r[v as usize]).collect();
+            assert_eq!(of_corners(&from), expected, "{first}");
+        }
+    }
+}
+
+#[test]
+fn polygons_and_colors_go_from_format_to_format_where_both_hold_them() {
+    let start = obj(POLYGONS);
+    let holders = ["out.obj", "out.ply", "out.off"];
+    for first in holders {
+        let (_, from) = saved(&start, first, &start.points(), None);
+        for second in holders {
+            let (_, to) = saved(&from, second, &from.points(), None);
+            assert_eq!(to.polygons(), [0..3, 3..5], "{first} to {second}");
+            assert_eq!(to.triangles, start.triangles, "{first} to {second}");
+            assert_eq!(to.positions.len(), 7, "{first} to {second}");
+            let (got, expected) = (to.colors.expect("colors"), start.colors.as_ref().expect("colors"));
+            assert_eq!(&got, expected, "{first} to {second}");
+        }
+    }
+}
+
+#[test]
+fn seams_and_hard_edges_survive_formats_whose_corners_have_nothing_of_their_own() {
+    let start = obj(OBJ);
+    for name in ["out.ply", "out.off", "out.glb"] {
+        let (_, to) = saved(&start, name, &start.points(), Some(&[1, 2, 3, 4, 5]));
+        assert_eq!(to.positions[..5], start.positions[..], "{name}: the old vertices come first");
+        // Vertices 0 and 1 have two normals each.
+        assert_eq!(to.positions.len(), 7, "{name}");
+        assert_eq!(to.point_triangles(), start.point_triangles(), "{name}");
+        assert_eq!(to.point_rigidity(), Some((vec![1, 2, 3, 4, 5], false)), "{name}");
+        assert_eq!(to.uvs.map(|uvs| uvs[2]), Some(glam::Vec2::ONE), "{name}");
+    }
+}
+
+#[test]
+fn what_a_format_cannot_hold_is_told() {
+    let said = |file: &MeshFile, name: &str| {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let warnings = file.save(&folder.path().join(name), &file.points(), None).expect("saved");
+        warnings.iter().map(|w| w.0.split(": ").last().unwrap_or_default().to_owned()).collect::<Vec<_>>().join("; ")
+    };
+    let numbering = "the numbering of vertices, of which every triangle gets its own";
+    let polygons = obj(POLYGONS);
+    assert_eq!(said(&polygons, "out.ply"), "");
+    assert_eq!(said(&polygons, "out.off"), "");
+    assert_eq!(said(&polygons, "out.glb"), "polygons of more than three corners");
+    let expected = format!("polygons of more than three corners, colors of vertices, {numbering}");
+    assert_eq!(said(&polygons, "out.stl"), expected);
+    let rich = obj(OBJ);
+    let expected = "textures and material settings beyond the base color, names and borders of parts, materials";
+    assert_eq!(said(&rich, "out.ply"), expected);
+    let expected = format!(
+        "textures and material settings beyond the base color, polygons of more than three corners, names and borders \
+         of parts, materials, texture coordinates, normals of vertices, {numbering}"
+    );
+    assert_eq!(said(&rich, "out.stl"), expected);
+}
+
+#[test]
+fn a_mesh_far_from_the_origin_keeps_its_details_or_says_so() {
+    let far = DVec3::new(4.5e6, 5.4e6, 0.0);
+    let file = obj(POLYGONS);
+    let points: Vec<DVec3> = file.points().iter().map(|p| *p + far).collect();
+    let (_, to) = saved(&file, "out.ply", &points, None);
+    assert_eq!(to.points(), points, "in double precision");
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let warnings = file.save(&folder.path().join("out.stl"), &points, None).expect("saved");
+    assert!(warnings.iter().any(|w| w.0.contains("rounds its details")), "{warnings:?}");
 }

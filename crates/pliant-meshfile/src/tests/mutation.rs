@@ -37,7 +37,7 @@ pub(crate) fn mutated(original: &[u8], numbers: &mut Numbers) -> Vec<u8> {
     bytes
 }
 
-fn survives(original: &[u8], format: Format, seed: u64, n: usize) {
+pub(super) fn survives(original: &[u8], format: Format, seed: u64, n: usize) {
     let mut numbers = Numbers(seed);
     for round in 0..n {
         let bytes = mutated(original, &mut numbers);

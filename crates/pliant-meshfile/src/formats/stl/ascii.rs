@@ -15,7 +15,7 @@ pub(super) fn start(bytes: &[u8]) -> usize {
 /// What follows next in a text.
 enum Piece<'a> {
     Solid(String),
-    /// The numbers of the normal and of the three corners.
+    /// The numbers of the normal, which may be empty words, and of the three corners.
     Facet([Word<'a>; 12]),
 }
 
@@ -50,7 +50,13 @@ impl<'a> Walk<'a> {
         let mut numbers = [Word { text: b"", start: 0 }; 12];
         let (normal, corners) = numbers.split_at_mut(3);
         self.keywords(&["normal"])?;
-        self.triple(normal)?;
+        let behind = self.words.at;
+        // Some writers give no numbers.
+        let is_missing = self.words.anywhere().is_some_and(|word| word.text.eq_ignore_ascii_case(b"outer"));
+        self.words.at = behind;
+        if !is_missing {
+            self.triple(normal)?;
+        }
         self.keywords(&["outer", "loop"])?;
         for corner in corners.chunks_exact_mut(3) {
             self.keywords(&["vertex"])?;
