@@ -2,7 +2,7 @@
 //!
 //! **Idea.** A file is more than its triangles: materials, seams, names, comments, animation, members that only some
 //! other program understands. Opening therefore keeps the file as it came (the JSON and binary chunks of glTF, the
-//! lines of OBJ) beside the geometry read from it, and saving edits that original: it replaces positions, turns the
+//! lines of OBJ, the header and lists of PLY) beside the geometry read from it, and saving edits that original: it replaces positions, turns the
 //! normals the file had, adds rigidity, and leaves every other byte alone.
 //!
 //! **Three numberings.** *File vertices* are what a file lists (`v` lines, the positions of glTF primitives in document

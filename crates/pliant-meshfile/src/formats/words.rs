@@ -101,10 +101,10 @@ impl Word<'_> {
     pub(super) fn whole(&self) -> Option<u64> {
         let digits = |n: u64, &byte: &u8| byte.is_ascii_digit().then(|| n * 10 + u64::from(byte - b'0'));
         // Eighteen digits do not overflow.
-        if (1..=18).contains(&self.text.len()) {
-            if let Some(number) = self.text.iter().try_fold(0, digits) {
-                return Some(number);
-            }
+        if (1..=18).contains(&self.text.len())
+            && let Some(number) = self.text.iter().try_fold(0, digits)
+        {
+            return Some(number);
         }
         // Up to 2⁵³ floating point tells whole numbers apart.
         self.number().filter(|x| x.fract() == 0.0 && (0.0..9.0e15).contains(x)).map(|x| x as u64)
@@ -127,7 +127,7 @@ pub(super) fn line_of(bytes: &[u8], at: usize) -> String {
 }
 
 fn is_blank(byte: u8) -> bool {
-    matches!(byte, b' ' | b'\t' | b'\0' | 0x0b | 0x0c)
+    byte <= b' ' && !is_line_end(byte)
 }
 
 pub(super) fn is_line_end(byte: u8) -> bool {

@@ -2,6 +2,7 @@
 
 mod animation;
 mod damaged;
+mod formats;
 mod matching;
 mod model;
 mod morphs;

@@ -21,7 +21,7 @@ Exit codes: 0 done, 1 refused or failed (one line says why; nothing is written),
 #[command(name = "pliant", bin_name = "pliant", version, after_help = EDITOR_EXAMPLES)]
 #[command(override_usage = "pliant [--quiet] [FILE]...\n       pliant [--quiet] <COMMAND> ...")]
 pub(super) struct Arguments {
-    /// Files to open in the editor (OBJ, glTF, GLB); a sample when none is given
+    /// Files to open in the editor (OBJ, glTF, GLB, PLY, STL, OFF); a sample when none is given
     #[arg(value_name = "FILE")]
     pub(super) files: Vec<PathBuf>,
 
@@ -62,7 +62,7 @@ Not converged within the iterations is not a failure: see "converged" in the rep
 #[derive(Debug, Args)]
 #[command(after_help = DEFORM_HELP)]
 pub(super) struct DeformOptions {
-    /// The mesh at rest (OBJ, glTF, GLB)
+    /// The mesh at rest (OBJ, glTF, GLB, PLY, STL, OFF)
     #[arg(value_name = "MESH")]
     pub(super) mesh: PathBuf,
 
@@ -137,7 +137,7 @@ for every r.";
 #[derive(Debug, Args)]
 #[command(after_help = LEARN_HELP)]
 pub(super) struct LearnOptions {
-    /// The mesh at rest (OBJ, glTF, GLB)
+    /// The mesh at rest (OBJ, glTF, GLB, PLY, STL, OFF)
     #[arg(value_name = "REFERENCE")]
     pub(super) reference: PathBuf,
 
@@ -298,7 +298,7 @@ pub(super) enum StartChoice {
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  pliant info creature.glb\n  pliant info creature.glb --json")]
 pub(super) struct InfoOptions {
-    /// The mesh file (OBJ, glTF, GLB)
+    /// The mesh file (OBJ, glTF, GLB, PLY, STL, OFF)
     #[arg(value_name = "MESH")]
     pub(super) mesh: PathBuf,
 
@@ -317,7 +317,7 @@ that holds one pose is its own rest pose, so its energy is zero everywhere and t
 #[derive(Debug, Args)]
 #[command(after_help = RENDER_HELP)]
 pub(super) struct RenderOptions {
-    /// The mesh file (OBJ, glTF, GLB)
+    /// The mesh file (OBJ, glTF, GLB, PLY, STL, OFF)
     #[arg(value_name = "MESH")]
     pub(super) mesh: PathBuf,
 

@@ -168,7 +168,7 @@ impl Action {
     /// One sentence more than the label.
     pub fn tooltip(self) -> &'static str {
         match self {
-            Action::Open => "Open a mesh: OBJ, glTF or GLB. A file dropped on the window opens too",
+            Action::Open => "Open a mesh: OBJ, glTF, GLB, PLY, STL or OFF. A file dropped on the window opens too",
             Action::OpenSample(_) => "A mesh that comes with Pliant",
             Action::Save => "Write the bent mesh to where it was last saved",
             Action::SaveAs => "Write the bent mesh, with everything else the file held",

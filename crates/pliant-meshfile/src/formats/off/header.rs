@@ -1,7 +1,7 @@
 //! The first words of an OFF file: what its vertices have, and how many there are.
 
 use crate::Fault;
-use crate::formats::words::{Word, Words};
+use crate::formats::words::Words;
 
 /// What vertices have besides their place.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -74,12 +74,11 @@ fn keyword(words: &mut Words<'_>) -> Result<Has, String> {
     }
     let text = word.text.to_ascii_uppercase();
     let end = text.windows(3).position(|window| window == b"OFF").ok_or_else(foreign)?;
-    // `nOFF`, unlike `NOFF`, tells its dimension; `4OFF` has four.
-    if word.text[..end].iter().any(|&byte| byte == b'4') || (word.text[..end].contains(&b'n') && text[..] != *b"NOFF") {
-        return Err(dimension(word));
-    }
-    if word.text == b"nOFF" {
-        return Err(dimension(word));
+    // `nOFF`, unlike `NOFF` and `noff`, tells its dimension; `4OFF` has four.
+    let declared = &word.text[..end];
+    if declared.contains(&b'4') || (declared.contains(&b'n') && word.text[end..].starts_with(b"OFF")) {
+        let kind = word.shown();
+        return Err(format!("is an OFF file of the kind {kind}: only points of three dimensions can be read"));
     }
     let mut has = Has::default();
     let mut prefix = &text[..end];
@@ -107,10 +106,6 @@ fn keyword(words: &mut Words<'_>) -> Result<Has, String> {
     }
     words.at = behind;
     Ok(has)
-}
-
-fn dimension(word: Word<'_>) -> String {
-    format!("is an OFF file of the kind {}: only points of three dimensions can be read", word.shown())
 }
 
 #[cfg(test)]

@@ -138,7 +138,9 @@ fn read_row(body: &mut Body<'_>, element: &Element, roles: &Roles, row: &mut [f6
             (Kind::Scalar(scalar), Some(role)) => {
                 row[*role] = body.value(scalar).map_err(|problem| format!("{}: {problem}", property.name))?;
             }
-            (kind, _) => drop(body.skip(kind)?),
+            (kind, _) => {
+                body.skip(kind)?;
+            }
         }
     }
     Ok(())
@@ -159,7 +161,9 @@ fn read_faces(
             for (i, property) in element.properties.iter().enumerate() {
                 match property.kind {
                     Kind::List { count, item } if i == indices => body.list(count, item, &mut numbers)?,
-                    kind => drop(body.skip(kind)?),
+                    kind => {
+                        body.skip(kind)?;
+                    }
                 }
             }
             if strips {

@@ -12,30 +12,35 @@ pub(super) fn start(bytes: &[u8]) -> usize {
     mark + bytes[mark..].iter().take_while(|byte| byte.is_ascii_whitespace()).count()
 }
 
+const NO_WORD: Word<'_> = Word { text: b"", start: 0 };
+
 /// What follows next in a text.
-enum Piece<'a> {
+enum Piece {
     Solid(String),
-    /// The numbers of the normal, which may be empty words, and of the three corners.
-    Facet([Word<'a>; 12]),
+    /// Its numbers are those of the walk.
+    Facet,
 }
 
 /// A walk over the pieces of a text.
 struct Walk<'a> {
     words: Words<'a>,
+    /// The numbers of the last facet: of its normal, which may be empty words, and of the three corners.
+    numbers: [Word<'a>; 12],
 }
 
 impl<'a> Walk<'a> {
     fn new(bytes: &'a [u8]) -> Walk<'a> {
-        Walk { words: Words::new(bytes, start(bytes), false) }
+        Walk { words: Words::new(bytes, start(bytes), false), numbers: [NO_WORD; 12] }
     }
 
-    fn next(&mut self) -> Result<Option<Piece<'a>>, Fault> {
+    fn next(&mut self) -> Result<Option<Piece>, Fault> {
         while let Some(word) = self.words.anywhere() {
             if word.text.eq_ignore_ascii_case(b"solid") {
                 return Ok(Some(Piece::Solid(self.words.rest_of_line())));
             }
             if word.text.eq_ignore_ascii_case(b"facet") {
-                return self.facet().map(|facet| Some(Piece::Facet(facet)));
+                self.numbers = self.facet()?;
+                return Ok(Some(Piece::Facet));
             }
             if !word.text.eq_ignore_ascii_case(b"endsolid") {
                 return Err(self.unexpected(Some(word), "solid, facet or endsolid"));
@@ -47,7 +52,7 @@ impl<'a> Walk<'a> {
     }
 
     fn facet(&mut self) -> Result<[Word<'a>; 12], Fault> {
-        let mut numbers = [Word { text: b"", start: 0 }; 12];
+        let mut numbers = [NO_WORD; 12];
         let (normal, corners) = numbers.split_at_mut(3);
         self.keywords(&["normal"])?;
         let behind = self.words.at;
@@ -102,22 +107,20 @@ pub(super) fn parse(bytes: &[u8], name: &str) -> Result<Parsed, Fault> {
     let mut current = budget::short_name(name.to_owned());
     let mut begins = true;
     while let Some(piece) = walk.next()? {
-        let words = match piece {
-            Piece::Solid(given) => {
-                let given = if given.is_empty() { name.to_owned() } else { given };
-                (current, begins) = (budget::short_name(given), true);
-                continue;
-            }
-            Piece::Facet(words) => words,
-        };
+        if let Piece::Solid(given) = piece {
+            let given = if given.is_empty() { name.to_owned() } else { given };
+            (current, begins) = (budget::short_name(given), true);
+            continue;
+        }
         let t = out.positions.len() / 3;
         check_count(t as u64 + 1)?;
-        for word in &words[3..] {
-            word.finite()
+        let mut numbers = [0.0; 9];
+        for (number, word) in numbers.iter_mut().zip(&walk.numbers[3..]) {
+            *number = word
+                .finite()
                 .map_err(|problem| Fault::at(format!("{}, triangle {t}", walk.words.line(word.start)), problem))?;
         }
-        let number = |i: usize| words[i].number().unwrap_or(0.0);
-        out.positions.extend([3, 6, 9].map(|i| DVec3::new(number(i), number(i + 1), number(i + 2))));
+        out.positions.extend(numbers.as_chunks().0.iter().map(|&corner| DVec3::from_array(corner)));
         if std::mem::take(&mut begins) {
             names.spend(current.len())?;
             out.solids.push((std::mem::take(&mut current), t..t));
@@ -141,7 +144,8 @@ pub(super) fn rewrite(bytes: &[u8], edit: &Edit<'_>) -> Vec<u8> {
     };
     // The text was read before and holds no error.
     while let Ok(Some(piece)) = walk.next() {
-        let Piece::Facet(words) = piece else { continue };
+        let Piece::Facet = piece else { continue };
+        let words = walk.numbers;
         let old = |i: usize| words[i].number().map_or(f32::NAN, |x| x as f32);
         if let Some(normal) = turned_normal(edit, t, Vec3::new(old(0), old(1), old(2))) {
             (0..3).for_each(|axis| replace(words[axis], shortest_single(normal[axis])));

@@ -86,7 +86,7 @@ impl Dialog {
 
 fn open(ui: &mut Ui, path: &mut String, session: &mut Session, close: &mut bool) -> Option<DialogOutcome> {
     ui.heading("Open a mesh");
-    ui.label(RichText::new("OBJ, glTF and GLB. A file dropped on the window opens too.").weak());
+    ui.label(RichText::new("OBJ, glTF, GLB, PLY, STL and OFF. A file dropped on the window opens too.").weak());
     ui.add_space(6.0);
     let entered = path_field(ui, path, || session.start(Job::BrowseOpen));
     ui.add_space(6.0);
@@ -108,7 +108,7 @@ fn open(ui: &mut Ui, path: &mut String, session: &mut Session, close: &mut bool)
 
 fn save(ui: &mut Ui, path: &mut String, session: &mut Session, close: &mut bool) -> Option<DialogOutcome> {
     ui.heading("Save the bent mesh");
-    let text = "The ending chooses the format: .glb, .gltf or .obj. Rigidity is kept with the mesh.";
+    let text = "The ending chooses the format: .glb, .gltf, .obj, .ply, .stl or .off. Rigidity is kept with the mesh.";
     ui.label(RichText::new(text).weak());
     ui.add_space(6.0);
     let name = PathBuf::from(path.trim()).file_name().map(|name| name.to_string_lossy().into_owned());
@@ -117,7 +117,7 @@ fn save(ui: &mut Ui, path: &mut String, session: &mut Session, close: &mut bool)
     let known = pliant_meshfile::Format::of(&typed).is_some();
     let exists = typed.is_file();
     let note = match (known, exists) {
-        (false, _) => "Choose an ending that can be written: .glb, .gltf or .obj",
+        (false, _) => "Choose an ending that can be written: .glb, .gltf, .obj, .ply, .stl or .off",
         (true, true) => "This file exists and will be replaced",
         (true, false) => "",
     };
