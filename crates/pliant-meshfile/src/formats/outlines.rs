@@ -19,10 +19,11 @@ pub(super) struct Outlines<'a, C> {
 impl<'a, C: Copy + Eq + Hash> Outlines<'a, C> {
     pub(super) fn of(triangles: &'a [[C; 3]], polygons: &[Range<u32>]) -> Outlines<'a, C> {
         let mut out = Outlines { triangles, polygons: Vec::new(), corners: Vec::new() };
+        let mut edges = Edges { count: HashMap::new(), next: HashMap::new() };
         for polygon in polygons {
             let range = polygon.start as usize..polygon.end as usize;
             let start = out.corners.len();
-            if outline(&triangles[range.clone()], &mut out.corners) {
+            if edges.outline(&triangles[range.clone()], &mut out.corners) {
                 out.polygons.push((range, start..out.corners.len()));
             } else {
                 out.corners.truncate(start);
@@ -55,33 +56,43 @@ impl<'a, C: Copy + Eq + Hash> Outlines<'a, C> {
     }
 }
 
-/// Appends the outline of one polygon's triangles; false where it is not a single loop through each corner once.
-fn outline<C: Copy + Eq + Hash>(triangles: &[[C; 3]], out: &mut Vec<C>) -> bool {
-    let edges = || triangles.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]);
-    let mut count: HashMap<(C, C), i32> = HashMap::new();
-    for edge in edges() {
-        *count.entry(edge).or_default() += 1;
-    }
-    let mut next: HashMap<C, C> = HashMap::new();
-    for (a, b) in edges() {
-        let left = count[&(a, b)] - count.get(&(b, a)).copied().unwrap_or(0);
-        if left > 1 || (left == 1 && next.insert(a, b).is_some()) {
-            return false;
+/// Room for the edges of one polygon.
+struct Edges<C> {
+    /// How often each is walked.
+    count: HashMap<(C, C), i32>,
+    /// The corner after each along the outline.
+    next: HashMap<C, C>,
+}
+
+impl<C: Copy + Eq + Hash> Edges<C> {
+    /// Appends the outline of a polygon's triangles; false where it is not a single loop through each corner once.
+    fn outline(&mut self, triangles: &[[C; 3]], out: &mut Vec<C>) -> bool {
+        let edges = || triangles.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]);
+        self.count.clear();
+        self.next.clear();
+        for edge in edges() {
+            *self.count.entry(edge).or_default() += 1;
         }
-    }
-    let n = triangles.len() + 2;
-    let first = triangles[0][0];
-    let mut corner = first;
-    for step in 0..n {
-        out.push(corner);
-        let Some(&after) = next.get(&corner) else { return false };
-        corner = after;
-        // Back at the start after a step for each corner, not before.
-        if (corner == first) != (step + 1 == n) {
-            return false;
+        for (a, b) in edges() {
+            let left = self.count[&(a, b)] - self.count.get(&(b, a)).copied().unwrap_or(0);
+            if left > 1 || (left == 1 && self.next.insert(a, b).is_some()) {
+                return false;
+            }
         }
+        let n = triangles.len() + 2;
+        let first = triangles[0][0];
+        let mut corner = first;
+        for step in 0..n {
+            out.push(corner);
+            let Some(&after) = self.next.get(&corner) else { return false };
+            corner = after;
+            // Back at the start after a step for each corner, not before.
+            if (corner == first) != (step + 1 == n) {
+                return false;
+            }
+        }
+        true
     }
-    true
 }
 
 #[cfg(test)]

@@ -116,7 +116,9 @@ fn bad_files_are_refused_by_place() {
         (format!("OFF\n3 1 0\n0 0 0 {}\n1 0 0\n0 1 0\n3 0 1 2\n", "1 ".repeat(10)), "more than the 12 numbers"),
         ("STOFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n".to_owned(), "vertex 0: has no texture coordinates"),
         ("OFF\n20000000 1 0\n0 0 0\n".to_owned(), "is cut off: it counts 20000000 vertices and 1 faces"),
-        ("OFF\n1 99999999999 0\n0 0 0\n".to_owned(), "is cut off: it counts 1 vertices and 99999999999 faces"),
+        ("OFF\n1 30000000 0\n0 0 0\n".to_owned(), "is cut off: it counts 1 vertices and 30000000 faces"),
+        ("OFF\n1 99999999999 0\n0 0 0\n".to_owned(), "99999999999 faces are more than the limit"),
+        (format!("OFF\n3 1 0\n{vertices}65537 0\n"), "65537 corners of one polygon are more than the limit"),
         ("OFF\n99999999999 1 0\n0 0 0\n".to_owned(), "99999999999 vertices are more than the limit"),
     ] {
         refused(text.as_bytes(), Format::Off, expected);

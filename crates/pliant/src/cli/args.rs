@@ -75,7 +75,7 @@ pub(super) struct DeformOptions {
     pub(super) output: PathBuf,
 
     /// Rings each vertex keeps rigid: a number for all, or a file with one number a vertex (text, JSON array, or a
-    /// mesh that carries _RIGIDITY); without it what MESH carries, else 1
+    /// mesh that carries its own); without it what MESH carries, else 1
     #[arg(long, value_name = "N|FILE", allow_negative_numbers = true)]
     pub(super) rigidity: Option<String>,
 

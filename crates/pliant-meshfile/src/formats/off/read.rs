@@ -25,6 +25,7 @@ const MOST: usize = 3 + 3 + 4 + 2;
 pub(super) fn parse(bytes: &[u8]) -> Result<Parsed, Fault> {
     let header = Header::parse(bytes)?;
     budget::check("vertices", header.n_vertices, budget::VERTICES)?;
+    budget::check("faces", header.n_faces, budget::TRIANGLES)?;
     header.check_room(bytes.len())?;
     let mut out = Parsed {
         positions: Vec::new(),
@@ -126,6 +127,7 @@ fn face_corners(words: &mut Words<'_>, out: &mut Vec<u32>) -> Result<(), String>
     let word = words.anywhere().ok_or("the file breaks off")?;
     let n = word.whole().ok_or_else(|| format!("{} is no number of corners", word.shown()))?;
     let left = words.bytes.len() - words.at;
+    budget::check("corners of one polygon", n, budget::POLYGON_CORNERS).map_err(|fault| fault.to_string())?;
     // A blank and a digit each.
     if n.saturating_mul(2) > left as u64 {
         return Err(format!("says it has {n} corners, {left} bytes are left"));

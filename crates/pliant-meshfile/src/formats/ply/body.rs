@@ -128,10 +128,14 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// Reads a list into `out`.
-    pub(super) fn list(&mut self, count: Scalar, item: Scalar, out: &mut Vec<f64>) -> Result<(), String> {
+    /// Reads a list of at most `limit` items into `out`.
+    pub(super) fn list(&mut self, [count, item]: [Scalar; 2], limit: u64, out: &mut Vec<f64>) -> Result<(), String> {
         out.clear();
-        for _ in 0..self.count(count, item)? {
+        let n = self.count(count, item)?;
+        if n > limit {
+            return Err(format!("{n} corners of one polygon or strip are more than the limit of {limit}"));
+        }
+        for _ in 0..n {
             out.push(self.value(item)?);
         }
         Ok(())

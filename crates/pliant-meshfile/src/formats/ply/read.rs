@@ -155,12 +155,14 @@ fn read_faces(
     strips: bool,
 ) -> Result<(), Fault> {
     let (mut numbers, mut corners) = (Vec::new(), Vec::new());
+    budget::check("faces", element.count, budget::TRIANGLES)?;
+    let limit = if strips { budget::TRIANGLES } else { budget::POLYGON_CORNERS };
     for index in 0..element.count {
         let mut read = || -> Result<(), String> {
             body.begin()?;
             for (i, property) in element.properties.iter().enumerate() {
                 match property.kind {
-                    Kind::List { count, item } if i == indices => body.list(count, item, &mut numbers)?,
+                    Kind::List { count, item } if i == indices => body.list([count, item], limit, &mut numbers)?,
                     kind => {
                         body.skip(kind)?;
                     }

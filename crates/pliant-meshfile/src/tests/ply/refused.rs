@@ -51,6 +51,7 @@ fn bad_bodies_are_refused_by_place() {
         ("0 0 0\n1 1e999 0\n0 1 0\n3 0 1 2\n", "line 11, vertex 1: its position [1, inf, 0] is not finite"),
         ("0 0 0\n1 y 0\n0 1 0\n3 0 1 2\n", "line 11, vertex 1: y: y is not a number"),
         ("0 0 0 7\n1 0 0\n0 1 0\n3 0 1 2\n", "vertex 1: begins on a line that holds more numbers than the header"),
+        ("0 0 0\n1 0 0\n0 1 0\n3 0 1\n", "line 14, face 0: the file breaks off"),
         ("0 0 0\n", "is cut off: the header counts 3 of element vertex"),
     ] {
         refused(&text(vertex, face, body), Format::Ply, expected);
@@ -89,6 +90,16 @@ fn counts_beyond_the_file_are_refused_at_once() {
         let file = super::model::opened(header.as_bytes());
         assert_eq!(file.triangles, [[0, 1, 2]], "{encoding}");
     }
+    let many = format!(
+        "ply\nformat ascii 1.0\nelement vertex 3\n{place}element face 1\nproperty list uint uint vertex_index\n\
+         end_header\n0 0 0\n1 0 0\n0 1 0\n65537{}\n",
+        " 0".repeat(65_537)
+    );
+    refused(
+        many.as_bytes(),
+        Format::Ply,
+        "line 13, face 0: 65537 corners of one polygon or strip are more than the limit",
+    );
     let list = "element face 1\nproperty list uint uint vertex_indices\n";
     let header = format!(
         "ply\nformat binary_little_endian 1.0\nelement vertex 1\n{place}{list}end_header\n\0\0\0\u{7f}\u{7f}\u{7f}\u{7f}"
