@@ -69,7 +69,7 @@ pub(super) enum Failure {
         path.display(), if *count == 1 { "1 pose was".to_owned() } else { format!("{count} poses were") }
     )]
     AllSkipped { path: PathBuf, count: usize, first: Box<PoseError> },
-    #[error("{}: not a mesh file or array by its name; use .json, .obj, .gltf or .glb", path.display())]
+    #[error("{}: not a mesh file or array by its name; use .json, .obj, .gltf, .glb, .ply, .stl or .off", path.display())]
     UnknownOutput { path: PathBuf },
     #[error(transparent)]
     Open(#[from] OpenError),
