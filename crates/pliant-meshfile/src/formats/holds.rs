@@ -57,7 +57,15 @@ impl Holds {
         check(self.normals, "normals of vertices", &has_normal);
         check(self.colors, "colors of vertices", &|| shape.colors.is_some());
         check(self.alpha || !self.colors, "transparency of vertices", &|| shape.colors.as_ref().is_some_and(is_clear));
+        check(self.sharing, "vertices of no triangle", &|| has_loose(shape));
         check(self.sharing, "the numbering of vertices, of which every triangle gets its own", &|| true);
         lost
     }
+}
+
+/// Whether a vertex belongs to no triangle.
+fn has_loose(shape: &Shape) -> bool {
+    let mut used = vec![false; shape.positions.len()];
+    shape.triangles.iter().flatten().for_each(|corner| used[corner.vertex as usize] = true);
+    used.contains(&false)
 }

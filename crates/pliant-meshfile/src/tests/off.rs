@@ -46,6 +46,27 @@ fn the_kinds_of_off_are_read() {
 }
 
 #[test]
+fn numbers_may_stand_on_whatever_lines() {
+    for text in [
+        "OFF 3 1 0 0 0 0 1 0 0 0 1 0 3 2 0 1",
+        "OFF\n3\n1\n0\n0 0 0 1 0 0\n0 1 0 3 2\n0 1\n",
+        "STNOFF 3 1 0 0 0 0 0 0 1 7 8 1 0 0 0 0 1 7 8 0 1 0 0 0 1 7 8 3 2 0 1",
+    ] {
+        let file = off(text);
+        assert_eq!(file.positions, [DVec3::ZERO, DVec3::X, DVec3::Y], "{text}");
+        assert_eq!(file.triangles, [[2, 0, 1]], "{text}");
+        let mut points = file.points();
+        points[2].y = 2.5;
+        let (out, again) = saved(&file, "free.off", &points, None);
+        assert_eq!(again.points(), points, "{text}");
+        let [new, old] = [&String::from_utf8_lossy(&out), text]
+            .map(|text| text.split_whitespace().map(str::to_owned).collect::<Vec<_>>());
+        let changed: Vec<_> = new.iter().zip(&old).filter(|(new, old)| new != old).collect();
+        assert_eq!((new.len(), changed), (old.len(), vec![(&"2.5".to_owned(), &"1".to_owned())]), "{text}");
+    }
+}
+
+#[test]
 fn saving_an_untouched_file_gives_the_same_bytes() {
     for end in ["\n", "\r\n", "\r"] {
         let text = TEXT.replace('\n', end) + "what follows";

@@ -19,10 +19,12 @@ pub(super) struct Header {
     pub(super) n_faces: u64,
     /// Where the vertices begin.
     pub(super) body: usize,
+    /// Whether numbers stand on whatever lines, so that no line holds more than was declared.
+    pub(super) free: bool,
 }
 
 impl Header {
-    pub(super) fn parse(bytes: &[u8]) -> Result<Header, Fault> {
+    pub(super) fn parse(bytes: &[u8], free: bool) -> Result<Header, Fault> {
         let mark = if bytes.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 };
         let mut words = Words::new(bytes, mark, true);
         let has = keyword(&mut words).map_err(Fault::Container)?;
@@ -35,12 +37,16 @@ impl Header {
         };
         let (n_vertices, n_faces) = (count("vertices")?, count("faces")?);
         // The number of edges, which means nothing, and may be missing.
+        if free {
+            words.anywhere();
+            return Ok(Header { has, n_vertices, n_faces, body: words.at, free });
+        }
         words.on_line();
         if let Some(word) = words.on_line() {
             let problem = format!("{} follows the numbers of vertices, faces and edges", word.shown());
             return Err(Fault::at(words.line(word.start), problem));
         }
-        Ok(Header { has, n_vertices, n_faces, body: words.at })
+        Ok(Header { has, n_vertices, n_faces, body: words.at, free })
     }
 
     /// Numbers at the front of each vertex that no other kind can be mistaken for.
@@ -114,7 +120,7 @@ mod tests {
 
     #[test]
     fn the_first_word_declares_what_vertices_have() {
-        let read = |text: &str| Header::parse(text.as_bytes()).map(|h| (h.has, h.n_vertices, h.n_faces));
+        let read = |text: &str| Header::parse(text.as_bytes(), false).map(|h| (h.has, h.n_vertices, h.n_faces));
         let has = |normals, colors, uvs| Has { normals, colors, uvs };
         for (text, expected) in [
             ("OFF 1 2 3\n", has(false, false, false)),
@@ -143,7 +149,7 @@ mod tests {
             ("OFF 1", "line 1: the number of faces is expected and nothing is there"),
             ("OFF 1 2 3 4\n", "line 1: 4 follows the numbers"),
         ] {
-            let got = Header::parse(text.as_bytes()).expect_err(text).to_string();
+            let got = Header::parse(text.as_bytes(), false).expect_err(text).to_string();
             assert!(got.contains(expected), "{text:?}: got {got}");
         }
     }

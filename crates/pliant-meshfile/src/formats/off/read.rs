@@ -22,8 +22,17 @@ pub(super) struct Parsed {
 /// Numbers of a vertex that may follow one another: position, normal, color, texture coordinates.
 const MOST: usize = 3 + 3 + 4 + 2;
 
+/// Reads a vertex or face a line, as programs write them and as colors need it; where that fails, numbers on whatever
+/// lines, which the format allows too.
 pub(super) fn parse(bytes: &[u8]) -> Result<Parsed, Fault> {
-    let header = Header::parse(bytes)?;
+    parse_as(bytes, false).or_else(|fault| parse_as(bytes, true).map_err(|_| fault))
+}
+
+fn parse_as(bytes: &[u8], free: bool) -> Result<Parsed, Fault> {
+    let header = Header::parse(bytes, free)?;
+    if free && header.has.colors {
+        return Err(Fault::Empty);
+    }
     budget::check("vertices", header.n_vertices, budget::VERTICES)?;
     budget::check("faces", header.n_faces, budget::TRIANGLES)?;
     header.check_room(bytes.len())?;
@@ -47,10 +56,11 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Parsed, Fault> {
 /// The words of the next vertex: those that have to be there, and what else its line holds.
 pub(super) fn vertex_words<'a>(words: &mut Words<'a>, header: &Header, out: &mut Vec<Word<'a>>) -> Result<(), String> {
     out.clear();
-    while out.len() < header.n_first() {
+    let n_needed = header.n_first() + if header.free && header.has.uvs { 2 } else { 0 };
+    while out.len() < n_needed {
         out.push(words.anywhere().ok_or("the file breaks off")?);
     }
-    while let Some(word) = words.on_line() {
+    while let Some(word) = if header.free { None } else { words.on_line() } {
         if out.len() == MOST {
             return Err(format!("has more than the {MOST} numbers that a vertex may have"));
         }
@@ -104,8 +114,10 @@ impl Parsed {
             // What follows the corners on a line is a color.
             let mut read = || -> Result<(), String> {
                 face_corners(words, &mut corners)?;
-                self.faces_more |= words.on_line().is_some();
-                words.rest_of_line();
+                if !self.header.free {
+                    self.faces_more |= words.on_line().is_some();
+                    words.rest_of_line();
+                }
                 faces.push(&corners)
             };
             read().map_err(|problem| Fault::at(format!("{}, face {face}", words.line(words.at)), problem))?;
