@@ -33,6 +33,13 @@ pub enum OpenError {
     },
 }
 
+impl OpenError {
+    /// Whether the caller asked for it, so that nothing is wrong with the file.
+    pub fn is_canceled(&self) -> bool {
+        matches!(self, OpenError::Content { fault: Fault::Canceled, .. })
+    }
+}
+
 /// What is wrong with the content of a file.
 #[derive(Debug, thiserror::Error)]
 pub enum Fault {
@@ -94,6 +101,15 @@ pub enum Fault {
         entry: usize,
         /// The value found, as text.
         value: String,
+    },
+    /// The caller no longer wanted the file.
+    #[error("opening it was canceled")]
+    Canceled,
+    /// Welding within a distance took all of the surface.
+    #[error("welding within {distance} leaves no surface: no triangle is that large; choose a smaller distance")]
+    WeldedAway {
+        /// The distance, in the file's units.
+        distance: f64,
     },
     /// A mesh file was given for its rigidity and carries none.
     #[error("carries no rigidity (no _RIGIDITY attribute, rigidity property or sidecar)")]

@@ -1,5 +1,6 @@
 //! Reading and writing of files: only regular ones, only so large, only where they belong, and never half.
 
+use crate::watch::Stage;
 use crate::{Fault, OpenError, SaveError};
 use std::fs::{self, File};
 use std::io::{Read, Write};
@@ -7,6 +8,14 @@ use std::path::{Path, PathBuf};
 
 /// Reads a regular file of at most `limit` bytes.
 pub(crate) fn read(path: &Path, limit: u64) -> Result<Vec<u8>, OpenError> {
+    read_in_stages(path, limit, Stage::unwatched())
+}
+
+/// Bytes read between two looks at whether they are still wanted: a few milliseconds of the slowest disks.
+const PIECE: u64 = 1 << 20;
+
+/// The same, telling how far it is.
+pub(crate) fn read_in_stages(path: &Path, limit: u64, stage: Stage<'_>) -> Result<Vec<u8>, OpenError> {
     let failed = |source| OpenError::Read { path: path.to_owned(), source };
     // Asked before opening: opening a pipe without a writer waits for ever.
     let metadata = fs::metadata(path).map_err(failed)?;
@@ -17,7 +26,10 @@ pub(crate) fn read(path: &Path, limit: u64) -> Result<Vec<u8>, OpenError> {
     let mut bytes = Vec::new();
     bytes.try_reserve_exact(metadata.len() as usize).map_err(|e| failed(std::io::Error::other(e)))?;
     // A file that grows while it is read is cut at the limit.
-    File::open(path).map_err(failed)?.take(limit).read_to_end(&mut bytes).map_err(failed)?;
+    let mut file = File::open(path).map_err(failed)?.take(limit);
+    while file.by_ref().take(PIECE).read_to_end(&mut bytes).map_err(failed)? > 0 {
+        stage.tell(bytes.len(), metadata.len() as usize).map_err(|fault| fault.in_file(path))?;
+    }
     Ok(bytes)
 }
 

@@ -25,17 +25,20 @@ mod formats;
 mod generated;
 mod mesh_file;
 mod normals;
+mod opening;
 mod polygon;
 pub mod poses;
 mod rigidity;
 mod shape;
 #[cfg(test)]
 mod tests;
+mod watch;
 mod weld;
 
 pub use error::{Fault, OpenError, SaveError, Warning};
 pub use format::Format;
-pub use mesh_file::{MeshFile, from_bytes, open, side_files};
+pub use mesh_file::{MeshFile, side_files};
+pub use opening::{OpenOptions, from_bytes, open};
 pub use rigidity::read_rigidity;
 pub use shape::Part;
-pub use weld::Weld;
+pub use weld::{Weld, Welding};

@@ -1,10 +1,12 @@
 //! A mesh file as opened, and the ways in and out.
 
-use crate::formats::{Before, Edit, Input, Motion, Opened, Output, Source, entry};
+use crate::formats::{Before, Edit, Motion, Opened, Output, Source, entry};
 use crate::generated::Generated;
 use crate::shape::{NO_MATERIAL, Part};
-use crate::{Fault, Format, OpenError, SaveError, Warning, Weld, budget, files, rigidity};
-use glam::{DVec3, Vec2};
+use crate::watch::Stage;
+use crate::{Fault, Format, SaveError, Warning, Weld, Welding, budget, files, normals, rigidity};
+use glam::{DQuat, DVec3, Vec2};
+use std::borrow::Cow;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -22,6 +24,8 @@ pub struct MeshFile {
     pub triangles: Vec<[u32; 3]>,
     /// Which surface point each file vertex stands for.
     pub weld: Weld,
+    /// How that was decided.
+    pub welding: Welding,
     /// r of every file vertex, from 1 to 1000, when the file or its sidecar `NAME.rigidity.json` carries one.
     pub rigidity: Option<Vec<u16>>,
     /// Texture coordinates of every file vertex, for display, origin at the lower left.
@@ -33,40 +37,6 @@ pub struct MeshFile {
     /// What was skipped or changed for display on opening.
     pub warnings: Vec<Warning>,
     source: Arc<dyn Source>,
-}
-
-/// Opens a mesh file, its format chosen by the ending of its name.
-///
-/// References are followed inside the file's folder only. Errors name the file, the place in it and what is wrong.
-pub fn open(path: &Path) -> Result<MeshFile, OpenError> {
-    let Some(format) = Format::of(path) else {
-        return Err(match std::fs::metadata(path) {
-            Err(source) => OpenError::Read { path: path.to_owned(), source },
-            Ok(_) => OpenError::UnknownFormat { path: path.to_owned() },
-        });
-    };
-    let bytes = files::read(path, budget::FILE_BYTES)?;
-    let name = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
-    let input = Input { bytes, folder: Some(files::folder_of(path)), name: &name };
-    let mut file = read(input, format).map_err(|fault| fault.in_file(path))?;
-    file.path = Some(path.to_owned());
-    if entry(format).rigidity_in_sidecar {
-        read_sidecar(&mut file, path)?;
-    }
-    Ok(file)
-}
-
-/// Opens a mesh file from memory; `name` stands for its path in messages. No references but data URIs are followed.
-pub fn from_bytes(bytes: &[u8], format: Format, name: &str) -> Result<MeshFile, OpenError> {
-    read(Input { bytes: bytes.to_vec(), folder: None, name }, format).map_err(|fault| fault.in_file(name))
-}
-
-fn read(input: Input<'_>, format: Format) -> Result<MeshFile, Fault> {
-    let opened = (entry(format).read)(input)?;
-    if opened.triangles.is_empty() {
-        return Err(Fault::Empty);
-    }
-    Ok(MeshFile::new(format, opened))
 }
 
 /// The files that [`MeshFile::save`] may write beside a mesh file of this name: whatever else lies there by these names
@@ -81,33 +51,68 @@ pub fn side_files(mesh: &Path) -> Vec<PathBuf> {
     files
 }
 
-/// A sidecar that is broken is an error, since saving over it would lose it.
-fn read_sidecar(file: &mut MeshFile, mesh: &Path) -> Result<(), OpenError> {
-    let sidecar = rigidity::sidecar_of(mesh);
-    if !files::is_taken(&sidecar) {
-        return Ok(());
-    }
-    let read = files::read_inside(files::folder_of(&sidecar), &sidecar, budget::TEXT_BYTES);
-    let rigidity = read
-        .map_err(|reason| Fault::Container(format!("cannot be read: {reason}")))
-        .and_then(|bytes| rigidity::parse(&bytes, file.positions.len()))
-        .map_err(|fault| {
-            let mesh = mesh.file_name().unwrap_or_default().to_string_lossy().into_owned();
-            Fault::Sidecar { mesh, fault: Box::new(fault) }.in_file(&sidecar)
-        })?;
-    file.rigidity = Some(rigidity);
-    Ok(())
-}
-
 impl MeshFile {
-    fn new(format: Format, opened: Opened) -> MeshFile {
-        let weld = Weld::exact(&opened.positions);
+    /// What a format gave, with its vertices welded.
+    pub(crate) fn welded(
+        format: Format,
+        opened: Opened,
+        welding: Welding,
+        stage: Stage<'_>,
+    ) -> Result<MeshFile, Fault> {
+        let weld = Weld::new(&opened.positions, welding, || opened.source.bindings(), stage)?;
+        let mut file = MeshFile::of(format, opened, weld, welding);
+        if let Welding::Within(distance) = welding {
+            file.note_near(distance)?;
+        }
+        Ok(file)
+    }
+
+    /// Says what welding within a distance joined and what it left of the surface.
+    fn note_near(&mut self, distance: f64) -> Result<(), Fault> {
+        let collapsed = |t: &&[u32; 3]| {
+            let [a, b, c] = t.map(|vertex| self.weld.point_of_vertex[vertex as usize]);
+            a == b || b == c || c == a
+        };
+        let n = self.triangles.iter().filter(collapsed).count();
+        if n == self.triangles.len() {
+            return Err(Fault::WeldedAway { distance });
+        }
+        let offset = |vertex: usize| self.positions[vertex].distance(self.positions[self.first_of(vertex)]);
+        let offsets = (0..self.positions.len()).map(offset).filter(|&offset| offset > 0.0);
+        let (joined, widest) = offsets.fold((0, 0.0_f64), |(n, widest), offset| (n + 1, widest.max(offset)));
+        if joined > 0 {
+            let text = format!("{joined} vertices were welded to others within {distance} (farthest: {widest})");
+            self.warnings.push(Warning(text));
+        }
+        if n > 0 {
+            let text = format!("{n} triangles are smaller than the welding distance of {distance} and have no extent");
+            self.warnings.push(Warning(text));
+        }
+        Ok(())
+    }
+
+    /// The file vertices at exactly one place, whatever welding was wished and whatever carries them: what tells by its
+    /// corners that another file shows the same mesh.
+    pub(crate) fn places(&self) -> Cow<'_, Weld> {
+        match self.source.bindings() {
+            None if self.welding == Welding::Exact => Cow::Borrowed(&self.weld),
+            _ => Cow::Owned(Weld::exact(&self.positions)),
+        }
+    }
+
+    /// The vertex whose place is that of a file vertex's surface point.
+    fn first_of(&self, vertex: usize) -> usize {
+        self.weld.vertex_of_point[self.weld.point_of_vertex[vertex] as usize] as usize
+    }
+
+    fn of(format: Format, opened: Opened, weld: Weld, welding: Welding) -> MeshFile {
         MeshFile {
             path: None,
             format,
             positions: opened.positions,
             triangles: opened.triangles,
             weld,
+            welding,
             rigidity: opened.rigidity,
             uvs: opened.uvs,
             colors: opened.colors,
@@ -139,7 +144,8 @@ impl MeshFile {
             warnings,
             source: Arc::new(Generated),
         };
-        MeshFile::new(Format::Glb, opened)
+        let weld = Weld::exact(&opened.positions);
+        MeshFile::of(Format::Glb, opened, weld, Welding::Exact)
     }
 
     /// Triangles that polygons of more than three corners were cut into, where the file has polygons.
@@ -251,12 +257,7 @@ impl MeshFile {
             }
         }
         let of_vertex = self.weld.point_of_vertex.iter().map(|&point| point as usize);
-        // Equal as numbers means unmoved: the file's own zero, negative or not, stays.
-        let spread = |(vertex, point): (usize, usize)| {
-            let old = self.positions[vertex];
-            if points[point] == old { old } else { points[point] }
-        };
-        let positions = of_vertex.clone().enumerate().map(spread).collect();
+        let positions = self.spread(points);
         let rigidity = rigidity.map(|r| of_vertex.map(|point| r[point]).collect());
         let before = Before {
             positions: &self.positions,
@@ -268,5 +269,47 @@ impl MeshFile {
             parts: &self.parts,
         };
         Ok(Edit { mesh: before, positions, rigidity })
+    }
+
+    /// World positions of the file vertices for new places of the surface points.
+    ///
+    /// What was welded within a distance lies beside its point's place. It goes along as if fixed to the surface there:
+    /// shifted as the point is, and its offset turned as the faces around the point turn.
+    fn spread(&self, points: &[DVec3]) -> Vec<DVec3> {
+        let place = |vertex: usize| {
+            let (old, first) = (self.positions[vertex], self.positions[self.first_of(vertex)]);
+            (old, first, points[self.weld.point_of_vertex[vertex] as usize])
+        };
+        let is_beside = |&vertex: &usize| {
+            let (old, first, _) = place(vertex);
+            old != first
+        };
+        let turns = match self.welding {
+            Welding::Within(_) if (0..self.positions.len()).any(|vertex| is_beside(&vertex)) => {
+                self.point_turns(points)
+            }
+            _ => Vec::new(),
+        };
+        let spread = |vertex: usize| {
+            let (old, first, new) = place(vertex);
+            // Equal as numbers means unmoved: the file's own zero, negative or not, stays.
+            if new == first {
+                old
+            } else if old == first {
+                new
+            } else {
+                let offset = old - first;
+                let turn = turns.get(self.weld.point_of_vertex[vertex] as usize).copied().flatten();
+                new + turn.map_or(offset, |turn| turn * offset)
+            }
+        };
+        (0..self.positions.len()).map(spread).collect()
+    }
+
+    /// How the faces around each surface point turn.
+    fn point_turns(&self, points: &[DVec3]) -> Vec<Option<DQuat>> {
+        let triangles = self.point_triangles();
+        let cluster = |t: usize, k: usize| Some(triangles[t][k]);
+        normals::turns(&triangles, points.len(), cluster, &self.points(), points)
     }
 }

@@ -14,5 +14,6 @@ mod ply;
 mod poses;
 mod stl;
 mod support;
+mod welding;
 
 pub(crate) use mutation::{Numbers, mutated};

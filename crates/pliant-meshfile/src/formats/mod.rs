@@ -13,7 +13,7 @@ mod stl;
 mod turning;
 mod words;
 
-pub(crate) use source::{Before, Broken, Edit, Input, Motion, Opened, Output, Source};
+pub(crate) use source::{Before, Bindings, Broken, Edit, Input, Motion, Opened, Output, Source};
 
 use crate::shape::Shape;
 use crate::{Fault, Format, SaveError};

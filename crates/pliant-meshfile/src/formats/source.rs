@@ -1,6 +1,7 @@
 //! The words between a format and the rest of the crate.
 
 use crate::shape::{Part, Shape};
+use crate::watch::Stage;
 use crate::{Fault, Format, SaveError, Warning, Weld};
 use glam::{DVec3, Vec2};
 use std::fmt::Debug;
@@ -15,6 +16,8 @@ pub(crate) struct Input<'a> {
     pub(crate) folder: Option<&'a Path>,
     /// Name of the model, for parts that have none.
     pub(crate) name: &'a str,
+    /// To be told how far reading is, every few milliseconds of work, and asked whether to go on.
+    pub(crate) stage: Stage<'a>,
 }
 
 /// What a reader gives.
@@ -43,6 +46,11 @@ pub(crate) trait Source: Debug + Send + Sync {
         &[]
     }
 
+    /// What keeps vertices apart that are at one place; none in formats without skins.
+    fn bindings(&self) -> Option<Box<dyn Bindings + '_>> {
+        None
+    }
+
     /// How many poses [`Source::motion`] gives at most, told without reading them.
     fn n_poses(&self, _frames: usize) -> usize {
         0
@@ -53,6 +61,12 @@ pub(crate) trait Source: Debug + Send + Sync {
     fn motion(self: Arc<Self>, _frames: usize) -> Result<Option<Box<dyn Motion>>, Fault> {
         Ok(None)
     }
+}
+
+/// What carries the vertices when the file's own skeleton moves.
+pub(crate) trait Bindings {
+    /// Whether two file vertices at one place stay together whatever the skeleton does.
+    fn alike(&self, a: usize, b: usize) -> bool;
 }
 
 /// Poses that a file holds besides its shape: morph targets, frames of animations.

@@ -3,7 +3,7 @@
 //! Files of one format and one program list the same vertices in the same order, and the faces prove it. Other formats
 //! list one place several times (STL once for every corner, glTF at every seam), so that vertices cannot be compared;
 //! then the *corners* of the triangles are, in order: all corners of one surface point of the reference have to lie at
-//! one place of the pose.
+//! one place of the pose. Places are compared, whatever welding was wished for the files and whatever carries them.
 //!
 //! Faces prove little where no two triangles share a vertex: then they are 0, 1, 2 and so on in every file. Of a
 //! reference that lists places several times, files with the same faces are therefore compared by corners too. Those of
@@ -109,7 +109,8 @@ fn same_outline(found: &[[u32; 3]], expected: &[[u32; 3]], polygon: &Range<u32>)
 
 /// Refuses a file with the reference's faces in which corners of one surface point part by more than [`SEAM`].
 fn meets(file: &MeshFile, reference: &MeshFile) -> Result<(), PoseFault> {
-    if reference.weld.n_points() == reference.positions.len() {
+    let places = reference.places();
+    if places.n_points() == reference.positions.len() {
         return Ok(());
     }
     let (mut sum, mut n) = (0.0, 0.0);
@@ -122,10 +123,10 @@ fn meets(file: &MeshFile, reference: &MeshFile) -> Result<(), PoseFault> {
     // A file without any extent has no corner that is apart.
     let widest = SEAM * sum / n;
     // The vertex of each surface point that is met first, and the triangle that it is a corner of.
-    let mut of_point = vec![(NOWHERE, 0); reference.weld.n_points()];
+    let mut of_point = vec![(NOWHERE, 0); places.n_points()];
     for (face, triangle) in reference.triangles.iter().enumerate() {
         for &vertex in triangle {
-            let known = &mut of_point[reference.weld.point_of_vertex[vertex as usize] as usize];
+            let known = &mut of_point[places.point_of_vertex[vertex as usize] as usize];
             if known.0 == NOWHERE {
                 *known = (vertex, face);
             }
@@ -140,12 +141,13 @@ fn meets(file: &MeshFile, reference: &MeshFile) -> Result<(), PoseFault> {
 /// The vertex at the same corner of the same triangle, for each file vertex of the reference.
 fn by_corners(file: &MeshFile, reference: &MeshFile) -> Result<Vec<u32>, PoseFault> {
     let mut of_vertex = vec![NOWHERE; reference.positions.len()];
+    let (places, their_places) = (reference.places(), file.places());
     // For each surface point of the reference the point of the pose, and the triangle that said so.
-    let mut of_point = vec![(NOWHERE, 0); reference.weld.n_points()];
+    let mut of_point = vec![(NOWHERE, 0); places.n_points()];
     for (face, (found, expected)) in file.triangles.iter().zip(&reference.triangles).enumerate() {
         for (&theirs, &vertex) in found.iter().zip(expected) {
-            let point = file.weld.point_of_vertex[theirs as usize];
-            let known = &mut of_point[reference.weld.point_of_vertex[vertex as usize] as usize];
+            let point = their_places.point_of_vertex[theirs as usize];
+            let known = &mut of_point[places.point_of_vertex[vertex as usize] as usize];
             if known.0 == NOWHERE {
                 *known = (point, face);
             } else if known.0 != point {

@@ -202,7 +202,7 @@ impl<'a> Poses<'a> {
         Ok(Pose { name, points, parted })
     }
 
-    /// The middle of each surface point's vertices.
+    /// The middle of each surface point's vertices, but for those that were welded to it from beside its place.
     fn welded(&self, of_vertex: &[DVec3]) -> (Vec<DVec3>, Option<Parted>) {
         let weld = &self.reference.weld;
         let first: Vec<DVec3> = weld.vertex_of_point.iter().map(|&vertex| of_vertex[vertex as usize]).collect();
@@ -211,14 +211,19 @@ impl<'a> Poses<'a> {
         }
         // By differences from the first, so that vertices at one place stay there to the bit.
         let mut sums = vec![(DVec3::ZERO, 0.0); first.len()];
-        for (&point, &position) in weld.point_of_vertex.iter().zip(of_vertex) {
+        let at_place =
+            |&(vertex, &point): &(usize, &u32)| self.reference.positions[vertex] == self.rest[point as usize];
+        let members = || weld.point_of_vertex.iter().enumerate().filter(at_place);
+        for (vertex, &point) in members() {
+            let position = of_vertex[vertex];
             let sum = &mut sums[point as usize];
             sum.0 += position - first[point as usize];
             sum.1 += 1.0;
         }
         let points: Vec<DVec3> = first.iter().zip(&sums).map(|(first, (sum, n))| first + sum / n).collect();
         let mut distances = vec![0.0_f64; points.len()];
-        for (&point, &position) in weld.point_of_vertex.iter().zip(of_vertex) {
+        for (vertex, &point) in members() {
+            let position = of_vertex[vertex];
             let distance = &mut distances[point as usize];
             *distance = distance.max(position.distance(points[point as usize]));
         }

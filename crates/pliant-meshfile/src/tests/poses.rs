@@ -4,6 +4,6 @@ mod animation;
 mod damaged;
 mod formats;
 mod matching;
-mod model;
+pub(super) mod model;
 mod morphs;
 mod skins;

@@ -25,7 +25,7 @@ mod source;
 pub(super) use export::write;
 pub(super) use read::read;
 
-use super::source::{Edit, Motion, Output, Source};
+use super::source::{Bindings, Edit, Motion, Output, Source};
 use crate::shape::Shape;
 use crate::{Fault, Format, SaveError};
 use source::GltfSource;
@@ -39,6 +39,10 @@ impl Source for GltfSource {
 
     fn shape(&self, edit: &Edit<'_>) -> Shape {
         shape::shape(self, edit)
+    }
+
+    fn bindings(&self) -> Option<Box<dyn Bindings + '_>> {
+        motion::bindings(self)
     }
 
     fn n_poses(&self, frames: usize) -> usize {

@@ -7,14 +7,14 @@ use serde_json::{Value, json};
 
 /// A document with its binary chunk.
 #[derive(Clone)]
-pub(super) struct Model {
-    pub(super) document: Value,
-    pub(super) binary: Vec<u8>,
+pub(in super::super) struct Model {
+    pub(in super::super) document: Value,
+    pub(in super::super) binary: Vec<u8>,
 }
 
 impl Model {
     /// A strip of unit squares along x: vertex 2 i + k at (i, 0, k), `n` squares long, in one node.
-    pub(super) fn strip(n: usize) -> Model {
+    pub(in super::super) fn strip(n: usize) -> Model {
         let document = json!({
             "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
             "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
@@ -33,7 +33,7 @@ impl Model {
     }
 
     /// Appends bytes behind a view of their own; gives its number.
-    pub(super) fn view(&mut self, bytes: &[u8]) -> usize {
+    pub(in super::super) fn view(&mut self, bytes: &[u8]) -> usize {
         self.binary.resize(self.binary.len().next_multiple_of(4), 0);
         let view = json!({"buffer": 0, "byteOffset": self.binary.len(), "byteLength": bytes.len()});
         self.binary.extend(bytes);
@@ -41,13 +41,13 @@ impl Model {
         push(&mut self.document["bufferViews"], view)
     }
 
-    pub(super) fn accessor(&mut self, bytes: &[u8], mut accessor: Value) -> usize {
+    pub(in super::super) fn accessor(&mut self, bytes: &[u8], mut accessor: Value) -> usize {
         accessor["bufferView"] = self.view(bytes).into();
         push(&mut self.document["accessors"], accessor)
     }
 
     /// Appends an accessor of single-precision numbers.
-    pub(super) fn floats(&mut self, kind: &str, numbers: &[f32]) -> usize {
+    pub(in super::super) fn floats(&mut self, kind: &str, numbers: &[f32]) -> usize {
         let width = match kind {
             "SCALAR" => 1,
             "VEC3" => 3,
@@ -59,7 +59,14 @@ impl Model {
     }
 
     /// Appends an animation, or a channel to the one of this name.
-    pub(super) fn channel(&mut self, name: &str, node: usize, path: &str, keys: [usize; 2], interpolation: &str) {
+    pub(in super::super) fn channel(
+        &mut self,
+        name: &str,
+        node: usize,
+        path: &str,
+        keys: [usize; 2],
+        interpolation: &str,
+    ) {
         if self.document["animations"].is_null() {
             self.document["animations"] = json!([]);
         }
@@ -73,32 +80,32 @@ impl Model {
         push(&mut animations[at]["channels"], channel);
     }
 
-    pub(super) fn open(&self) -> MeshFile {
+    pub(in super::super) fn open(&self) -> MeshFile {
         from_bytes(&self.bytes(), Format::Glb, "model.glb").unwrap_or_else(|error| panic!("{error}"))
     }
 
-    pub(super) fn bytes(&self) -> Vec<u8> {
+    pub(in super::super) fn bytes(&self) -> Vec<u8> {
         glb(&self.document, &self.binary)
     }
 }
 
 /// Appends to a list and gives the number of the item.
-pub(super) fn push(list: &mut Value, item: Value) -> usize {
+pub(in super::super) fn push(list: &mut Value, item: Value) -> usize {
     let list = list.as_array_mut().expect("a list");
     list.push(item);
     list.len() - 1
 }
 
-pub(super) fn frames(frames: usize) -> PoseOptions {
+pub(in super::super) fn frames(frames: usize) -> PoseOptions {
     PoseOptions { frames, ..PoseOptions::default() }
 }
 
 /// All poses that a file holds of itself, and how many were passed over.
-pub(super) fn own_poses(file: &MeshFile, options: PoseOptions) -> (Vec<Pose>, usize) {
+pub(in super::super) fn own_poses(file: &MeshFile, options: PoseOptions) -> (Vec<Pose>, usize) {
     collect(Poses::of_reference(file, options).unwrap_or_else(|error| panic!("{error}")))
 }
 
-pub(super) fn collect(poses: Poses<'_>) -> (Vec<Pose>, usize) {
+pub(in super::super) fn collect(poses: Poses<'_>) -> (Vec<Pose>, usize) {
     let (mut taken, mut n_alike) = (Vec::new(), 0);
     for found in poses {
         match found.unwrap_or_else(|error| panic!("{error}")) {

@@ -11,7 +11,7 @@ use glam::{DMat4, DVec3};
 use serde_json::Value;
 
 /// Joint and weight.
-type Followed = (u16, f32);
+pub(super) type Followed = (u16, f32);
 
 /// Memory that a set takes for each vertex at most: where its joints begin, and four of them.
 const SET_BYTES: usize = size_of::<u32>() + 4 * size_of::<Followed>();
@@ -79,9 +79,15 @@ impl Binding {
         4 * self.sets.len()
     }
 
-    fn followed(&self, vertex: usize) -> impl Iterator<Item = Followed> + Clone {
+    /// The joints that a vertex follows and their weights, in the order of the file.
+    pub(super) fn followed(&self, vertex: usize) -> impl Iterator<Item = Followed> + Clone {
         let of_set = move |set: &'_ Set| set.starts[vertex] as usize..set.starts[vertex + 1] as usize;
         self.sets.iter().flat_map(move |set| set.followed[of_set(set)].iter().copied())
+    }
+
+    /// The joint that a vertex follows when it is bound to nothing.
+    pub(super) fn first(&self, vertex: usize) -> u16 {
+        self.first[vertex]
     }
 
     /// Moves the vertices to where their joints hold them.

@@ -17,12 +17,15 @@
 //! Evaluated here because the crates that do so belong to renderers, in single precision on the GPU.
 
 mod binding;
+mod bound;
 mod carried;
 mod clip;
 mod morph;
 mod rig;
 mod sampler;
 mod skin;
+
+pub(super) use bound::bindings;
 
 use super::access::Data;
 use super::json;

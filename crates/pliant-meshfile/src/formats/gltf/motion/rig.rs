@@ -218,7 +218,7 @@ impl Rig {
 }
 
 /// The skin that a node puts on its mesh.
-fn skin_of(document: &Value, node: usize, nodes: &[Value]) -> Result<Option<usize>, Fault> {
+pub(super) fn skin_of(document: &Value, node: usize, nodes: &[Value]) -> Result<Option<usize>, Fault> {
     let n = json::list(document, "skins")?.len();
     json::reference(&nodes[node], "skin", &format!("node {node}"), "skin", n)
 }

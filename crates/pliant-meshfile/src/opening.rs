@@ -1,0 +1,104 @@
+//! The ways in: a file or bytes, opened as is wished.
+
+use crate::formats::{Input, entry};
+use crate::watch::{Stage, watched};
+use crate::{Fault, Format, MeshFile, OpenError, Welding, budget, files, rigidity};
+use std::ops::ControlFlow;
+use std::path::Path;
+
+/// What a caller may choose about opening a file.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct OpenOptions {
+    /// Which file vertices become one surface point.
+    pub welding: Welding,
+}
+
+/// Opens a mesh file, its format chosen by the ending of its name, with exact welding.
+///
+/// References are followed inside the file's folder only. Errors name the file, the place in it and what is wrong.
+pub fn open(path: &Path) -> Result<MeshFile, OpenError> {
+    OpenOptions::default().open(path)
+}
+
+/// Opens a mesh file from memory; `name` stands for its path in messages. No references but data URIs are followed.
+pub fn from_bytes(bytes: &[u8], format: Format, name: &str) -> Result<MeshFile, OpenError> {
+    OpenOptions::default().from_bytes(bytes, format, name)
+}
+
+/// Shares of the work, by what they were measured to take of an OBJ file of a million vertices: reading the bytes,
+/// making a mesh of them, welding.
+const READ: f64 = 0.1;
+const WELD: f64 = 0.8;
+
+impl OpenOptions {
+    /// Opens a mesh file, its format chosen by the ending of its name.
+    ///
+    /// References are followed inside the file's folder only. Errors name the file, the place in it and what is wrong.
+    pub fn open(&self, path: &Path) -> Result<MeshFile, OpenError> {
+        self.open_with_progress(path, &mut |_| ControlFlow::Continue(()))
+    }
+
+    /// The same, while `progress` is told the fraction that is done, ascending up to 1, and stops the opening by
+    /// answering [`ControlFlow::Break`]: the error then is [`OpenError::is_canceled`]. It is called from any of the
+    /// threads that work but one at a time, every few milliseconds.
+    pub fn open_with_progress(
+        &self,
+        path: &Path,
+        progress: &mut (dyn FnMut(f64) -> ControlFlow<()> + Send),
+    ) -> Result<MeshFile, OpenError> {
+        watched(progress, |stage| self.open_in_stages(path, stage))
+    }
+
+    /// Opens a mesh file from memory; `name` stands for its path in messages. No references but data URIs are followed.
+    pub fn from_bytes(&self, bytes: &[u8], format: Format, name: &str) -> Result<MeshFile, OpenError> {
+        let input = Input { bytes: bytes.to_vec(), folder: None, name, stage: Stage::unwatched() };
+        self.read(input, format).map_err(|fault| fault.in_file(name))
+    }
+
+    fn open_in_stages(&self, path: &Path, stage: Stage<'_>) -> Result<MeshFile, OpenError> {
+        let Some(format) = Format::of(path) else {
+            return Err(match std::fs::metadata(path) {
+                Err(source) => OpenError::Read { path: path.to_owned(), source },
+                Ok(_) => OpenError::UnknownFormat { path: path.to_owned() },
+            });
+        };
+        let bytes = files::read_in_stages(path, budget::FILE_BYTES, stage.part(0.0, READ))?;
+        let name = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+        let input = Input { bytes, folder: Some(files::folder_of(path)), name: &name, stage: stage.part(READ, 1.0) };
+        let mut file = self.read(input, format).map_err(|fault| fault.in_file(path))?;
+        file.path = Some(path.to_owned());
+        if entry(format).rigidity_in_sidecar {
+            read_sidecar(&mut file, path)?;
+        }
+        stage.tell(1, 1).map_err(|fault| fault.in_file(path))?;
+        Ok(file)
+    }
+
+    fn read(&self, input: Input<'_>, format: Format) -> Result<MeshFile, Fault> {
+        let stage = input.stage;
+        let input = Input { stage: stage.part(0.0, WELD), ..input };
+        let opened = (entry(format).read)(input)?;
+        if opened.triangles.is_empty() {
+            return Err(Fault::Empty);
+        }
+        MeshFile::welded(format, opened, self.welding, stage.part(WELD, 1.0))
+    }
+}
+
+/// A sidecar that is broken is an error, since saving over it would lose it.
+fn read_sidecar(file: &mut MeshFile, mesh: &Path) -> Result<(), OpenError> {
+    let sidecar = rigidity::sidecar_of(mesh);
+    if !files::is_taken(&sidecar) {
+        return Ok(());
+    }
+    let read = files::read_inside(files::folder_of(&sidecar), &sidecar, budget::TEXT_BYTES);
+    let rigidity = read
+        .map_err(|reason| Fault::Container(format!("cannot be read: {reason}")))
+        .and_then(|bytes| rigidity::parse(&bytes, file.positions.len()))
+        .map_err(|fault| {
+            let mesh = mesh.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            Fault::Sidecar { mesh, fault: Box::new(fault) }.in_file(&sidecar)
+        })?;
+    file.rigidity = Some(rigidity);
+    Ok(())
+}
