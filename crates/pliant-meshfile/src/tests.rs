@@ -7,6 +7,7 @@ mod gltf_reading;
 mod gltf_saving;
 mod lossless;
 mod mutation;
+mod obj_details;
 mod obj_reading;
 mod obj_saving;
 mod off;

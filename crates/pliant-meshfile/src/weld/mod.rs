@@ -15,9 +15,11 @@ mod near;
 use crate::Fault;
 use crate::formats::Bindings;
 use crate::watch::Stage;
+use foldhash::quality::RandomState;
 use glam::DVec3;
-use std::collections::HashMap;
-use std::collections::hash_map::Entry;
+use hashbrown::HashTable;
+use hashbrown::hash_table::Entry;
+use std::hash::BuildHasher;
 
 /// Which file vertices become one surface point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -134,19 +136,29 @@ impl Weld {
 
     fn places(positions: &[DVec3], stage: Stage<'_>) -> Result<Weld, Fault> {
         let mut weld = Weld { point_of_vertex: Vec::with_capacity(positions.len()), vertex_of_point: Vec::new() };
-        let mut point_at: HashMap<[u64; 3], u32> = HashMap::with_capacity(positions.len());
+        // Keyed differently in every run, so that no file can be made to collide; what is found does not depend on it.
+        let hasher = RandomState::default();
+        // Adding 0.0 turns -0.0 into 0.0 and changes nothing else.
+        let hash = |vertex: u32| hasher.hash_one(positions[vertex as usize].to_array().map(|x| (x + 0.0).to_bits()));
+        // Numbers of points alone, which stay in the cache better than places do.
+        let mut known: HashTable<u32> = HashTable::with_capacity(positions.len());
         for (vertex, position) in positions.iter().enumerate() {
             if vertex % PIECE == 0 {
                 stage.tell(vertex, positions.len())?;
             }
-            let next = weld.vertex_of_point.len() as u32;
-            // Adding 0.0 turns -0.0 into 0.0 and changes nothing else.
-            let key = position.to_array().map(|x| (x + 0.0).to_bits());
-            let point = match point_at.entry(key) {
+            let first = &mut weld.vertex_of_point;
+            let found = known.entry(
+                hash(vertex as u32),
+                |&point| positions[first[point as usize] as usize] == *position,
+                |&point| hash(first[point as usize]),
+            );
+            let point = match found {
                 Entry::Occupied(known) => *known.get(),
                 Entry::Vacant(new) => {
-                    weld.vertex_of_point.push(vertex as u32);
-                    *new.insert(next)
+                    let point = first.len() as u32;
+                    new.insert(point);
+                    first.push(vertex as u32);
+                    point
                 }
             };
             weld.point_of_vertex.push(point);

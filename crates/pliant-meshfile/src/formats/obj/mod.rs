@@ -2,7 +2,7 @@
 //!
 //! Read by a scanner of our own: keeping every byte for saving needs the place of each number in the text, and the
 //! guard in front of the usual parser (continuation, marks, text that is not UTF-8, concave polygons) is larger than a
-//! reader. That parser checks this reader in the tests.
+//! reader. That parser checks this reader in the tests, and runs beside it in the benchmark.
 
 mod export;
 mod materials;
@@ -24,7 +24,7 @@ use std::sync::Arc;
 
 /// Reads an OBJ file.
 pub(super) fn read(input: Input<'_>) -> Result<Opened, Fault> {
-    let mut parsed = parse::parse(&input.bytes, input.name)?;
+    let mut parsed = parse::parse(&input.bytes, input.name, input.stage)?;
     let materials = materials::load(&mut parsed, input.folder);
     let color_of = |material: Option<usize>| material.map_or(NO_MATERIAL, |m| materials[m].base_color);
     let part = |part: &ShapePart| Part {
@@ -45,6 +45,7 @@ pub(super) fn read(input: Input<'_>) -> Result<Opened, Fault> {
         materials,
         libraries: parsed.libraries,
         polygons: parsed.polygons,
+        skipped: parsed.skipped,
         folder: input.folder.map(Path::to_owned),
     };
     Ok(Opened {
@@ -79,7 +80,9 @@ impl ObjSource {
     /// What a shape does not keep of this very file.
     fn left_behind(&self) -> Vec<&'static str> {
         let materials = (!self.libraries.is_empty()).then_some("textures and material settings beyond the base color");
-        materials.into_iter().collect()
+        let lines = (self.skipped.lines > 0).then_some("lines and points");
+        let curves = (self.skipped.curves > 0).then_some("curves and surfaces");
+        materials.into_iter().chain(lines).chain(curves).collect()
     }
 }
 

@@ -1,5 +1,6 @@
 //! An OBJ file as it came.
 
+use super::parse::Skipped;
 use crate::shape::{Material, ShapePart};
 use glam::{Vec2, Vec3};
 use std::ops::Range;
@@ -23,5 +24,6 @@ pub(super) struct ObjSource {
     pub(super) libraries: Vec<String>,
     /// Triangles that each face of more than three corners was cut into.
     pub(super) polygons: Vec<Range<u32>>,
+    pub(super) skipped: Skipped,
     pub(super) folder: Option<PathBuf>,
 }

@@ -1,25 +1,66 @@
 //! Statements and words of OBJ text, over bytes, so that any encoding passes and places can be edited.
 
+use std::ops::Range;
+
 /// A line, with its continuations, as a range of the text.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Statement<'a> {
     bytes: &'a [u8],
     pub(super) start: usize,
     end: usize,
+    /// Whether it goes over several lines.
+    is_continued: bool,
 }
 
 /// Walks the statements of a text. Lines end at `\n`, `\r\n` or `\r`.
 pub(super) struct Statements<'a> {
     bytes: &'a [u8],
     at: usize,
+    end: usize,
     line: usize,
+}
+
+/// Length of the byte order mark at the start of a text.
+fn mark(bytes: &[u8]) -> usize {
+    if bytes.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 }
 }
 
 impl<'a> Statements<'a> {
     pub(super) fn new(bytes: &'a [u8]) -> Self {
-        let mark = if bytes.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 };
-        Statements { bytes, at: mark, line: 1 }
+        Statements::within(bytes, 0..bytes.len())
     }
+
+    /// Those of a range that begins and ends between statements; lines are counted from its start.
+    pub(super) fn within(bytes: &'a [u8], range: Range<usize>) -> Self {
+        Statements { bytes, at: range.start.max(mark(bytes)), end: range.end, line: 1 }
+    }
+}
+
+/// Ranges of about `size` bytes that cover a text and end between statements.
+pub(super) fn cuts(bytes: &[u8], size: usize) -> Vec<Range<usize>> {
+    let (mut ranges, mut start) = (Vec::new(), 0);
+    while start < bytes.len() {
+        let end = statement_end_after(bytes, start.saturating_add(size));
+        ranges.push(start..end);
+        start = end;
+    }
+    ranges
+}
+
+/// The first place from `at` on where a statement certainly has ended: behind a line end that no backslash precedes.
+fn statement_end_after(bytes: &[u8], mut at: usize) -> usize {
+    while at < bytes.len() {
+        let Some(found) = memchr::memchr2(b'\n', b'\r', &bytes[at..]) else { break };
+        let mut end = at + found;
+        at = end + line_end(bytes, end);
+        if bytes[end] == b'\n' && end > 0 && bytes[end - 1] == b'\r' {
+            end -= 1;
+        }
+        if end == 0 || bytes[end - 1] != b'\\' {
+            return at;
+        }
+    }
+    bytes.len()
 }
 
 impl<'a> Iterator for Statements<'a> {
@@ -28,12 +69,12 @@ impl<'a> Iterator for Statements<'a> {
 
     fn next(&mut self) -> Option<Self::Item> {
         let (bytes, start, line) = (self.bytes, self.at, self.line);
-        if start >= bytes.len() {
+        if start >= self.end {
             return None;
         }
         let statement = statement_at(bytes, start);
         let mut at = statement.end;
-        self.line += count_line_ends(&bytes[start..at]) + 1;
+        self.line += 1 + if statement.is_continued { count_line_ends(&bytes[start..at]) } else { 0 };
         at += line_end(bytes, at);
         self.at = at;
         Some((statement, line))
@@ -42,13 +83,22 @@ impl<'a> Iterator for Statements<'a> {
 
 /// The statement that begins at a place.
 pub(super) fn statement_at(bytes: &[u8], start: usize) -> Statement<'_> {
+    let end = memchr::memchr2(b'\n', b'\r', &bytes[start..]).map_or(bytes.len(), |length| start + length);
+    // Only a backslash right before the line end can continue a line.
+    if end == bytes.len() || end == start || bytes[end - 1] != b'\\' {
+        return Statement { bytes, start, end, is_continued: false };
+    }
+    continued_statement_at(bytes, start)
+}
+
+fn continued_statement_at(bytes: &[u8], start: usize) -> Statement<'_> {
     // A comment that ends in a backslash does not swallow the line after it; in a name `#` begins no comment.
     let (mut end, mut continues, mut holds_name) = (start, true, None);
     let mut after_blank = true;
     while end < bytes.len() {
         let byte = bytes[end];
         if byte == b'#' && after_blank {
-            let before = Statement { bytes, start, end };
+            let before = Statement { bytes, start, end, is_continued: true };
             continues &= *holds_name.get_or_insert_with(|| before.holds_name());
         }
         after_blank = is_blank(byte);
@@ -61,7 +111,7 @@ pub(super) fn statement_at(bytes: &[u8], start: usize) -> Statement<'_> {
             _ => end += 1,
         }
     }
-    Statement { bytes, start, end }
+    Statement { bytes, start, end, is_continued: true }
 }
 
 fn is_blank(byte: u8) -> bool {
@@ -116,7 +166,7 @@ pub(super) struct Word<'a> {
 
 impl Word<'_> {
     pub(super) fn number(&self) -> Option<f64> {
-        std::str::from_utf8(self.bytes).ok()?.parse().ok()
+        fast_float2::parse(self.bytes).ok()
     }
 
     pub(super) fn shown(&self) -> String {
@@ -134,9 +184,10 @@ impl<'a> Iterator for Words<'a> {
     type Item = Word<'a>;
 
     fn next(&mut self) -> Option<Word<'a>> {
-        let Statement { bytes, end, .. } = self.statement;
+        let Statement { bytes, end, is_continued, .. } = self.statement;
         // Inside a statement a line end only ever follows a backslash.
-        let continuation = |at: usize| bytes[at] == b'\\' && at + 1 < end && line_end(bytes, at + 1) > 0;
+        let continuation =
+            |at: usize| is_continued && bytes[at] == b'\\' && at + 1 < end && line_end(bytes, at + 1) > 0;
         let mut start = self.at;
         while start < end {
             if continuation(start) {
@@ -170,6 +221,82 @@ mod tests {
         let got: Vec<(usize, String)> = Statements::new(text).map(|(s, line)| (line, s.rest())).collect();
         let expected = [(1, "1 2 3 # up \\"), (2, "4 5 6"), (3, "a # b \\\nc"), (5, "7#8 \\\n9")];
         assert_eq!(got, expected.map(|(line, rest)| (line, rest.to_owned())));
+    }
+
+    #[test]
+    fn numbers_are_those_of_the_standard_library() {
+        let mut texts: Vec<String> = [
+            "0",
+            "-0",
+            "+1.5",
+            "1.",
+            ".5",
+            "-.5e-3",
+            "1e5",
+            "1E+5",
+            "1e400",
+            "-1e400",
+            "1e-400",
+            "4.9e-324",
+            "2e-324",
+            "0.1",
+            "123456789012345678901234567890",
+            "0.30000000000000004",
+            "9007199254740993",
+            "nan",
+            "-NaN",
+            "inf",
+            "Infinity",
+            "-inf",
+            "",
+            ".",
+            "-",
+            "+",
+            "e5",
+            "1e",
+            "1e+",
+            "0x10",
+            "1_000",
+            "1,5",
+            "1.5f",
+            "1d5",
+            "--1",
+            " 1",
+            "1 ",
+            "1.2.3",
+            "infinit",
+            "na",
+            "\u{661}",
+        ]
+        .map(str::to_owned)
+        .to_vec();
+        let mut state = 1_u64;
+        for _ in 0..20_000 {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            let number = f64::from_bits(state);
+            texts.extend([number.to_string(), format!("{number:e}"), format!("{:.6}", (state >> 40) as f64 / 1e5)]);
+        }
+        for text in &texts {
+            let word = Word { bytes: text.as_bytes(), start: 0, end: text.len() };
+            let expected = text.parse::<f64>().ok().map(f64::to_bits);
+            // The sign of what is no number means nothing.
+            let same = word.number().map(f64::to_bits) == expected || word.number().is_some_and(f64::is_nan);
+            assert!(same, "{text:?}: got {:?}, expected {:?}", word.number(), text.parse::<f64>());
+        }
+    }
+
+    #[test]
+    fn cuts_lie_between_statements_and_cover_the_text() {
+        let text = b"\xef\xbb\xbfv 1\\\r\n2\r\nv 3\r\r\n\nf 1 2\\\n\\\r3\r# c\\\nv\n\nv 9";
+        let whole: Vec<usize> = Statements::new(text).map(|(statement, _)| statement.start).collect();
+        for size in 1..text.len() {
+            let ranges = cuts(text, size);
+            let starts = ranges.iter().cloned().flat_map(|range| Statements::within(text, range));
+            let starts: Vec<usize> = starts.map(|(statement, _)| statement.start).collect();
+            assert_eq!(starts, whole, "pieces of {size} bytes: {ranges:?}");
+            assert!(ranges.windows(2).all(|pair| pair[0].end == pair[1].start), "{ranges:?}");
+            assert_eq!(ranges.last().map(|range| range.end), Some(text.len()));
+        }
     }
 
     #[test]
