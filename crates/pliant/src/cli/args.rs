@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use pliant_meshfile::Welding;
 use pliant_solver::Weights;
 
 const EDITOR_EXAMPLES: &str = "\
@@ -79,6 +80,11 @@ pub(super) struct DeformOptions {
     #[arg(long, value_name = "N|FILE", allow_negative_numbers = true)]
     pub(super) rigidity: Option<String>,
 
+    /// Which vertices are one point of the surface: those at exactly the same place, those at most so far apart (in the
+    /// file's units), or none
+    #[arg(long, value_name = "exact|never|DISTANCE", default_value = "exact", allow_negative_numbers = true)]
+    pub(super) weld: Welding,
+
     /// What to minimize
     #[arg(long, value_enum, default_value_t)]
     pub(super) method: Method,
@@ -148,6 +154,11 @@ pub(super) struct LearnOptions {
     /// The learned rigidity: an array (.json), or the reference mesh that carries it
     #[arg(short, long, value_name = "OUT")]
     pub(super) output: PathBuf,
+
+    /// Which vertices are one point of the surface: those at exactly the same place, those at most so far apart (in the
+    /// file's units), or none
+    #[arg(long, value_name = "exact|never|DISTANCE", default_value = "exact", allow_negative_numbers = true)]
+    pub(super) weld: Welding,
 
     /// The smallest r a vertex may get
     #[arg(long, value_name = "R", default_value_t = 1, allow_negative_numbers = true)]
@@ -302,6 +313,11 @@ pub(super) struct InfoOptions {
     #[arg(value_name = "MESH")]
     pub(super) mesh: PathBuf,
 
+    /// Which vertices are one point of the surface: those at exactly the same place, those at most so far apart (in the
+    /// file's units), or none
+    #[arg(long, value_name = "exact|never|DISTANCE", default_value = "exact", allow_negative_numbers = true)]
+    pub(super) weld: Welding,
+
     /// Print one JSON object instead of text
     #[arg(long)]
     pub(super) json: bool,
@@ -324,6 +340,11 @@ pub(super) struct RenderOptions {
     /// The picture, a PNG
     #[arg(short, long, value_name = "PICTURE.png")]
     pub(super) output: PathBuf,
+
+    /// Which vertices are one point of the surface: those at exactly the same place, those at most so far apart (in the
+    /// file's units), or none
+    #[arg(long, value_name = "exact|never|DISTANCE", default_value = "exact", allow_negative_numbers = true)]
+    pub(super) weld: Welding,
 
     /// What colors the surface
     #[arg(long, value_enum, default_value_t)]
@@ -395,6 +416,23 @@ mod tests {
         assert_eq!(options.start, StartChoice::Auto);
         assert_eq!(options.max_iterations, 1000);
         assert_eq!(options.tolerance, 1e-3);
+    }
+
+    #[test]
+    fn welding_is_exact_unless_it_is_named() {
+        let welding = |more: &[&str]| {
+            let words = ["pliant", "info", "a.obj"].iter().chain(more);
+            let parsed = Arguments::try_parse_from(words).map_err(|error| error.kind())?;
+            let Some(Command::Info(options)) = parsed.command else { panic!("not info: {:?}", parsed.command) };
+            Ok(options.weld)
+        };
+        assert_eq!(welding(&[]), Ok(Welding::Exact));
+        assert_eq!(welding(&["--weld", "exact"]), Ok(Welding::Exact));
+        assert_eq!(welding(&["--weld", "never"]), Ok(Welding::Never));
+        assert_eq!(welding(&["--weld", "1e-3"]), Ok(Welding::Within(1e-3)));
+        for wrong in ["-1", "nan", "inf", "always"] {
+            assert_eq!(welding(&["--weld", wrong]), Err(clap::error::ErrorKind::ValueValidation), "{wrong}");
+        }
     }
 
     #[test]

@@ -118,8 +118,7 @@ struct Job {
 }
 
 fn load(options: &DeformOptions, console: &mut Console<'_>) -> Result<Job, Failure> {
-    console.progress(|| format!("reading {}", options.mesh.display()));
-    let (file, mesh) = surface::open(&options.mesh)?;
+    let (file, mesh) = surface::open(&options.mesh, options.weld, console)?;
     let mut warnings: Vec<String> = file.warnings.iter().map(ToString::to_string).collect();
     let handles = handles_file::read(&options.handles, &file)?;
     let ChosenRigidity { rigidity, is_explicit, warning } = match options.method {

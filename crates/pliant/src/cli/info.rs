@@ -71,8 +71,7 @@ struct PartFacts {
 }
 
 pub(super) fn run(options: &InfoOptions, console: &mut Console<'_>) -> Result<(), Failure> {
-    console.progress(|| format!("reading {}", options.mesh.display()));
-    let (file, mesh) = surface::open(&options.mesh)?;
+    let (file, mesh) = surface::open(&options.mesh, options.weld, console)?;
     let facts = facts(options, &file, &mesh)?;
     let text = if options.json {
         let json = serde_json::to_string_pretty(&facts);

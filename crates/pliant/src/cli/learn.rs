@@ -38,8 +38,7 @@ pub(super) fn run(options: &LearnOptions, console: &mut Console<'_>) -> Result<(
 fn run_in_pool(options: &LearnOptions, console: &mut Console<'_>) -> Result<(), Failure> {
     let clock = Instant::now();
     let mut times = LearnTimes::default();
-    console.progress(|| format!("reading {}", options.reference.display()));
-    let (file, mesh) = surface::open(&options.reference)?;
+    let (file, mesh) = surface::open(&options.reference, options.weld, console)?;
     times.load = milliseconds(clock);
 
     let begun = Instant::now();

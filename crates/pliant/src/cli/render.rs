@@ -14,6 +14,7 @@ use super::console::Console;
 use super::failure::Failure;
 use super::rigidity;
 use super::staged::{Staged, check_target, same_file};
+use super::surface;
 
 /// Larger pictures than any adapter is sure to draw (the limit every WebGPU implementation guarantees).
 const MAX_SIDE_PX: u32 = 8192;
@@ -23,8 +24,7 @@ const RAMP_MAX: u16 = 6;
 
 pub(super) fn run(options: &RenderOptions, console: &mut Console<'_>) -> Result<(), Failure> {
     check_options(options)?;
-    console.progress(|| format!("reading {}", options.mesh.display()));
-    let file = pliant_meshfile::open(&options.mesh)?;
+    let file = surface::read(&options.mesh, options.weld, console)?;
     let chosen = rigidity::choose(options.rigidity.as_deref(), &file)?;
     let warnings = file.warnings.iter().map(ToString::to_string).chain(chosen.warning);
     let warnings: Vec<String> = warnings.collect();

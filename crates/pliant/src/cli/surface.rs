@@ -1,15 +1,26 @@
 //! The mesh a command works on: the file and the surface the solver sees, with failures told in the file's numbers.
 
+use std::ops::ControlFlow;
 use std::path::Path;
 
-use pliant_meshfile::{MeshFile, Weld};
+use pliant_meshfile::{MeshFile, OpenOptions, Weld, Welding};
 use pliant_solver::{Mesh, MeshError, SolveError};
 
+use super::console::Console;
 use super::failure::Failure;
 
-/// Opens the mesh file at `path`.
-pub(super) fn open(path: &Path) -> Result<(MeshFile, Mesh), Failure> {
-    let file = pliant_meshfile::open(path)?;
+/// Reads the mesh file at `path`, welded as is wished.
+pub(super) fn read(path: &Path, welding: Welding, console: &mut Console<'_>) -> Result<MeshFile, Failure> {
+    let mut progress = |fraction: f64| {
+        console.progress(|| format!("reading {}: {:.0} %", path.display(), (100.0 * fraction).floor()));
+        ControlFlow::Continue(())
+    };
+    Ok(OpenOptions { welding }.open_with_progress(path, &mut progress)?)
+}
+
+/// Opens the mesh file at `path`, welded as is wished.
+pub(super) fn open(path: &Path, welding: Welding, console: &mut Console<'_>) -> Result<(MeshFile, Mesh), Failure> {
+    let file = read(path, welding, console)?;
     let mesh = Mesh::new(file.points(), file.point_triangles()).map_err(|source| refused(source, path, &file.weld))?;
     Ok((file, mesh))
 }

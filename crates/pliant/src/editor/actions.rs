@@ -14,6 +14,8 @@ pub enum Action {
     Open,
     /// Opens a mesh of the program's own.
     OpenSample(Sample),
+    /// Reads the file again.
+    Reopen,
     /// Writes to where it was last written, or asks.
     Save,
     /// Asks where to write.
@@ -75,6 +77,8 @@ pub(super) enum WindowAction {
     Open,
     /// Open a sample, unless changes would be lost.
     OpenSample(Sample),
+    /// Open the same file again, unless changes would be lost.
+    Reopen,
     /// Show the save dialog.
     SaveAs,
     /// Write to the known path.
@@ -89,6 +93,7 @@ impl Action {
     /// Every action, in the order of the sheet of keys.
     pub const ALL: &[Action] = &[
         Action::Open,
+        Action::Reopen,
         Action::Save,
         Action::SaveAs,
         Action::Quit,
@@ -131,6 +136,7 @@ impl Action {
         match self {
             Action::Open => "Open…",
             Action::OpenSample(sample) => sample.name(),
+            Action::Reopen => "Reopen",
             Action::Save => "Save",
             Action::SaveAs => "Save as…",
             Action::Quit => "Quit",
@@ -170,6 +176,7 @@ impl Action {
         match self {
             Action::Open => "Open a mesh: OBJ, glTF, GLB, PLY, STL or OFF. A file dropped on the window opens too",
             Action::OpenSample(_) => "A mesh that comes with Pliant",
+            Action::Reopen => "Read the file again, as it is now, with the welding that is chosen",
             Action::Save => "Write the bent mesh to where it was last saved",
             Action::SaveAs => "Write the bent mesh, with everything else the file held",
             Action::Quit => "Close the window",
@@ -215,7 +222,7 @@ impl Action {
             Action::SelectNone => command_shift(Key::A),
             Action::HandleFromSelection => command(Key::H),
             Action::AnchorFromSelection => command_shift(Key::H),
-            Action::OpenSample(_) | Action::HoldEverythingElse => None,
+            Action::OpenSample(_) | Action::Reopen | Action::HoldEverythingElse => None,
             Action::FillSelection => command(Key::F),
             Action::FillAll => None,
             Action::LearnRigidity => command(Key::L),
@@ -255,6 +262,7 @@ impl Action {
         };
         let scene = document.scene();
         match self {
+            Action::Reopen if document.model().file.path.is_none() => Some("This mesh comes from no file"),
             Action::Undo if document.history().is_empty() && !document.in_step() => Some("There is nothing to undo"),
             Action::Redo if document.history().redo_name().is_none() => Some("There is nothing to redo"),
             Action::SelectNone
@@ -286,6 +294,7 @@ impl Action {
         match self {
             Action::Open => return Some(WindowAction::Open),
             Action::OpenSample(sample) => return Some(WindowAction::OpenSample(sample)),
+            Action::Reopen => return Some(WindowAction::Reopen),
             Action::Save => return Some(WindowAction::Save),
             Action::SaveAs => return Some(WindowAction::SaveAs),
             Action::Quit => return Some(WindowAction::Quit),

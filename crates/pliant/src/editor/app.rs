@@ -94,6 +94,12 @@ impl EditorApp {
             None => {}
             Some(WindowAction::Open) => self.dialog = Dialog::Open { path: String::new() },
             Some(WindowAction::OpenSample(sample)) => self.lose(Loss::OpenSample(sample), ctx),
+            Some(WindowAction::Reopen) => {
+                let path = self.session.document().and_then(|document| document.model().file.path.clone());
+                if let Some(path) = path {
+                    self.lose(Loss::Open(path), ctx);
+                }
+            }
             Some(WindowAction::SaveAs) => self.ask_where_to_save(),
             Some(WindowAction::Save) => self.save(),
             Some(WindowAction::Quit) => ctx.send_viewport_cmd(egui::ViewportCommand::Close),

@@ -1,13 +1,16 @@
 //! Work that takes longer than a frame, each piece on a thread of its own.
 
-use std::path::PathBuf;
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
 use pliant_geometry::VertexNormals;
+use pliant_meshfile::OpenOptions;
 
 use super::Sample;
-use crate::document::{Model, Snapshot};
+use super::opening::Opening;
+use crate::document::{Model, ModelError, Snapshot};
 use crate::tools::Surface;
 use crate::viewport::SurfaceFrame;
 
@@ -75,7 +78,7 @@ pub enum JobEvent {
     ChosenToSave(PathBuf),
     /// There is no dialog on this machine, or it was closed at once.
     NoDialog,
-    /// The dialog was closed without a choice.
+    /// The dialog was closed without a choice, or the mesh is no longer wanted.
     Dismissed,
     /// It failed: why.
     Failed {
@@ -97,28 +100,31 @@ pub(super) struct Jobs {
     /// Number and label of each unfinished job, oldest first.
     running: Vec<(u64, &'static str)>,
     next: u64,
-    /// The newest job that opens a mesh: what older ones bring is no longer wanted.
-    newest_open: u64,
+    /// The newest job that opens a mesh, while it runs: what older ones bring is no longer wanted.
+    opening: Option<(u64, Opening)>,
 }
 
 impl Jobs {
     pub(super) fn new(wake: Arc<dyn Fn() + Send + Sync>) -> Jobs {
         let (sender, receiver) = channel();
-        Jobs { sender, receiver, wake, running: Vec::new(), next: 0, newest_open: 0 }
+        Jobs { sender, receiver, wake, running: Vec::new(), next: 0, opening: None }
     }
 
-    /// Starts a job. A thread that cannot be started is a failure like any other.
-    pub(super) fn start(&mut self, job: Job) {
+    /// Starts a job; files are opened with `options`. A thread that cannot be started is a failure like any other.
+    pub(super) fn start(&mut self, job: Job, options: OpenOptions) {
         let (sender, wake) = (self.sender.clone(), self.wake.clone());
         let number = self.next;
         self.next += 1;
         let what = label(&job);
-        self.running.push((number, what));
+        let opening = Opening::default();
         if matches!(job, Job::Open(_) | Job::OpenSample(_)) {
-            self.newest_open = number;
+            self.cancel_opening();
+            self.opening = Some((number, opening.clone()));
         }
+        self.running.push((number, what));
         let work = move || {
-            let outcome = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| run(job)));
+            let read = |path: &Path| opening.read(path, options, &*wake);
+            let outcome = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| run(job, read)));
             let event = outcome
                 .unwrap_or_else(|_| JobEvent::Failed { what, why: "it stopped unexpectedly; please report it".into() });
             // Nobody listens any more once the window is closed.
@@ -137,10 +143,26 @@ impl Jobs {
         loop {
             let (number, event) = self.receiver.try_recv().ok()?;
             self.running.retain(|&(running, _)| running != number);
-            let is_outdated = matches!(event, JobEvent::Opened { .. }) && number != self.newest_open;
-            if !is_outdated {
+            let is_newest = self.opening.as_ref().is_some_and(|(newest, _)| *newest == number);
+            if is_newest {
+                self.opening = None;
+            }
+            if is_newest || !matches!(event, JobEvent::Opened { .. }) {
                 return Some(event);
             }
+        }
+    }
+
+    /// How far the newest job is that opens a mesh, while one does.
+    pub(super) fn opening(&self) -> Option<f64> {
+        self.opening.as_ref().map(|(_, opening)| opening.fraction())
+    }
+
+    /// Stops opening a mesh: the one on screen stays.
+    pub(super) fn cancel_opening(&mut self) {
+        if let Some((number, opening)) = self.opening.take() {
+            opening.stop();
+            self.running.retain(|&(running, _)| running != number);
         }
     }
 
@@ -166,9 +188,12 @@ fn label(job: &Job) -> &'static str {
     }
 }
 
-fn run(job: Job) -> JobEvent {
+fn run(job: Job, read: impl FnOnce(&Path) -> ControlFlow<(), Result<Model, ModelError>>) -> JobEvent {
     match job {
-        Job::Open(path) => opened(Model::open(&path), None),
+        Job::Open(path) => match read(&path) {
+            ControlFlow::Continue(model) => opened(model, None),
+            ControlFlow::Break(()) => JobEvent::Dismissed,
+        },
         Job::OpenSample(sample) => opened(sample.model(), Some(sample)),
         Job::Save { model, snapshot, to } => save(model, snapshot, to),
         Job::BrowseOpen => {
@@ -196,7 +221,7 @@ fn ask<T>(dialog: impl FnOnce() -> Option<T>, chosen: impl FnOnce(T) -> JobEvent
     }
 }
 
-fn opened(model: Result<Model, crate::document::ModelError>, sample: Option<Sample>) -> JobEvent {
+fn opened(model: Result<Model, ModelError>, sample: Option<Sample>) -> JobEvent {
     match model {
         Ok(model) => JobEvent::Opened { opened: Box::new(Opened::new(Arc::new(model))), sample },
         Err(error) => JobEvent::Failed { what: OPENING, why: error.to_string() },

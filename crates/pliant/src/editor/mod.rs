@@ -8,6 +8,7 @@ mod learning;
 mod look;
 mod notices;
 mod open;
+mod opening;
 mod panels;
 mod samples;
 mod session;

@@ -5,6 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use glam::{DAffine3, Vec2};
+use pliant_meshfile::{OpenOptions, Welding};
 use pliant_solver::{Rigidity, VertexId};
 
 use super::jobs::{Jobs, Opened};
@@ -27,6 +28,8 @@ pub struct Session {
     pub notices: Notices,
     /// What the solver last said.
     pub status: Status,
+    /// Which vertices of the next file become one point.
+    pub welding: Welding,
     /// Rigidity being learned from poses, while its panel is open.
     pub learning: Option<Learning>,
     wake: Arc<dyn Fn() + Send + Sync>,
@@ -52,6 +55,7 @@ impl Session {
             look: Look::default(),
             notices: Notices::default(),
             status: Status::default(),
+            welding: Welding::Exact,
             learning: None,
             wake: wake.clone(),
             viewport_size: Vec2::new(800.0, 600.0),
@@ -83,7 +87,17 @@ impl Session {
         if matches!(job, Job::Open(_) | Job::OpenSample(_)) {
             self.revision_at_open = self.document().map_or(0, Document::revision);
         }
-        self.jobs.start(job);
+        self.jobs.start(job, OpenOptions { welding: self.welding });
+    }
+
+    /// How far the mesh is that is being opened, from 0 to 1, while one is.
+    pub fn opening(&self) -> Option<f64> {
+        self.jobs.opening()
+    }
+
+    /// Stops opening a mesh: the one on screen stays.
+    pub fn cancel_opening(&mut self) {
+        self.jobs.cancel_opening();
     }
 
     /// Whether a mesh is being written in the background.

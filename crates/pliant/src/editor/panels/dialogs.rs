@@ -99,6 +99,9 @@ fn open(ui: &mut Ui, path: &mut String, session: &mut Session, close: &mut bool)
             }
         }
     });
+    ui.add_space(6.0);
+    let unit = session.document().map_or(0.001, |document| 0.01 * document.model().mean_edge());
+    super::weld::choice(ui, &mut session.welding, unit);
     ui.add_space(10.0);
     if confirm(ui, "Open", !path.trim().is_empty(), "Type a path or browse for a file", entered, close) {
         outcome = Some(DialogOutcome::Open(PathBuf::from(path.trim())));

@@ -12,6 +12,7 @@ mod rail;
 mod sections;
 mod status;
 mod welcome;
+mod weld;
 
 pub(super) use dialogs::{Dialog, DialogOutcome, Loss};
 pub(super) use inspector::inspector;

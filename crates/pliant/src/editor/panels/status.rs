@@ -10,6 +10,7 @@ pub(in crate::editor) fn status(ui: &mut Ui, session: &mut Session, is_software:
     let quiet = theme::palette(session.look.theme).quiet;
     ui.horizontal(|ui| {
         state(ui, session);
+        opening(ui, session);
         if let Some(document) = session.document() {
             let mesh = &document.model().mesh;
             ui.separator();
@@ -68,6 +69,15 @@ fn state(ui: &mut Ui, session: &Session) {
     let (rect, _) = ui.allocate_exact_size(egui::vec2(10.0, 16.0), egui::Sense::hover());
     ui.painter().circle_filled(rect.center(), 4.0, color);
     ui.label(text);
+}
+
+/// How far a mesh is that is being opened, and a way to stop it.
+fn opening(ui: &mut Ui, session: &mut Session) {
+    let Some(fraction) = session.opening() else { return };
+    ui.add(egui::ProgressBar::new(fraction as f32).desired_width(140.0).show_percentage());
+    if ui.small_button("Cancel").on_hover_text("Stop opening: the mesh on screen stays").clicked() {
+        session.cancel_opening();
+    }
 }
 
 /// Without a number where there is none to tell yet.
