@@ -7,6 +7,7 @@
 //! | `stages` | every stage of the solver by size and r |
 //! | `kernels` | the parts of an iteration beside the memory's floor |
 //! | `learning` | rigidity from poses |
+//! | `opening` | files, beside other readers |
 //! | `outside` | an iteration as anyone can time it, by the command line |
 //! | `descent` | how fast the energy falls, from rest and in a drag |
 //! | `peers` | libigl and Open3D beside it, by `tools/peers.py` |
@@ -18,6 +19,7 @@ mod descent;
 mod kernels;
 mod learning;
 mod machine;
+mod opening;
 mod outside;
 mod peers;
 mod scene;
@@ -48,9 +50,37 @@ pub(crate) struct Options {
     /// Where to write, instead of docs/performance.md
     #[arg(long, value_name = "FILE")]
     output: Option<PathBuf>,
+    /// Measure this part alone and put it in its place on the page that is there
+    #[arg(long, value_enum, value_name = "PART")]
+    only: Option<Part>,
     /// A line to put under the machine's name, for instance a date
     #[arg(long, value_name = "TEXT")]
     note: Option<String>,
+}
+
+/// What can be measured by itself.
+#[derive(clap::ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
+enum Part {
+    /// How fast files are opened
+    Opening,
+    /// How fast the energy falls in a drag
+    Drag,
+}
+
+impl Part {
+    fn title(self) -> &'static str {
+        match self {
+            Part::Opening => "Opening",
+            Part::Drag => "A drag",
+        }
+    }
+
+    fn text(self, quick: bool, folder: &Path) -> Result<String, Failure> {
+        match self {
+            Part::Opening => opening::table(quick, folder),
+            Part::Drag => dragged(quick),
+        }
+    }
 }
 
 /// Sizes of the body: 1, 12, 50, 100, 250 and 1000 thousand vertices.
@@ -69,9 +99,16 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
     // Built by `run_optimized` into the same folder as this program.
     let here = std::env::current_exe().map_err(|source| Failure::File { path: "xtask".into(), source })?;
     let program = here.with_file_name(format!("pliant{}", std::env::consts::EXE_SUFFIX));
-    let text = measure(options, program.is_file().then_some(&*program))?;
-    let output =
-        options.output.clone().unwrap_or_else(|| assets::folder().with_file_name("docs").join("performance.md"));
+    let page = assets::folder().with_file_name("docs").join("performance.md");
+    let text = match options.only {
+        None => measure(options, program.is_file().then_some(&*program))?,
+        Some(part) => {
+            let old = fs::read_to_string(&page).map_err(|source| Failure::File { path: page.clone(), source })?;
+            let text = part.text(options.quick, temporary_folder()?.path())?;
+            with_section(&old, part.title(), &text)
+        }
+    };
+    let output = options.output.clone().unwrap_or(page);
     fs::write(&output, text).map_err(|source| Failure::File { path: output.clone(), source })?;
     eprintln!("written to {}", output.display());
     Ok(())
@@ -93,9 +130,25 @@ fn run_optimized() -> Result<(), Failure> {
     Ok(())
 }
 
+fn temporary_folder() -> Result<tempfile::TempDir, Failure> {
+    tempfile::tempdir().map_err(|source| Failure::File { path: std::env::temp_dir(), source })
+}
+
+/// A page with another text under one title; where it has no such title, a section more at its end.
+fn with_section(page: &str, title: &str, text: &str) -> String {
+    let new = format!("## {title}\n\n{}\n", text.trim_end());
+    let heading = format!("## {title}\n");
+    let start = if page.starts_with(&heading) { Some(0) } else { page.find(&format!("\n{heading}")).map(|at| at + 1) };
+    let Some(start) = start else { return format!("{}\n\n{new}", page.trim_end()) };
+    match page[start + heading.len()..].find("\n## ") {
+        Some(length) => format!("{}{new}{}", &page[..start], &page[start + heading.len() + length..]),
+        None => format!("{}{new}", &page[..start]),
+    }
+}
+
 /// The text of the page; without `program` what needs the command line is left out.
 fn measure(options: &Options, program: Option<&Path>) -> Result<String, Failure> {
-    let folder = tempfile::tempdir().map_err(|source| Failure::File { path: std::env::temp_dir(), source })?;
+    let folder = temporary_folder()?;
     let machine = Machine::measure();
     let mut page = String::from(
         "# Performance\n\n\
@@ -123,8 +176,9 @@ fn measure(options: &Options, program: Option<&Path>) -> Result<String, Failure>
     let both = bodies(&[CUTS[1], CUTS[3]]);
     let jumps: Vec<_> = both.iter().flat_map(|&scene| [(scene, 1), (scene, 10)]).collect();
     section("From rest", &descent::from_rest(&jumps, most)?);
-    section("A drag", &dragged(options.quick)?);
+    section(Part::Drag.title(), &dragged(options.quick)?);
     section("Learning", &learning::table(&bodies(&CUTS))?);
+    section(Part::Opening.title(), &opening::table(options.quick, folder.path())?);
     if let Some(program) = program.filter(|_| options.peers) {
         section("Beside others", &peers::tables(program, &both, folder.path(), most)?);
     }
@@ -170,9 +224,20 @@ mod tests {
     use super::*;
 
     #[test]
+    fn one_section_is_put_in_its_place() {
+        let page = "# Page\n\n## A drag\n\nold\n\n## Learning\n\nkept\n";
+        let drag = with_section(page, "A drag", "new\n\n");
+        assert_eq!(drag, "# Page\n\n## A drag\n\nnew\n\n## Learning\n\nkept\n");
+        let learning = with_section(page, "Learning", "new\n\n");
+        assert_eq!(learning, "# Page\n\n## A drag\n\nold\n\n## Learning\n\nnew\n");
+        let more = with_section(page, "Opening", "new\n\n");
+        assert_eq!(more, format!("{page}\n## Opening\n\nnew\n"));
+    }
+
+    #[test]
     fn the_quick_run_writes_every_table() {
         let page = measure(&Options { quick: true, ..Options::default() }, None).expect("measured");
-        for title in ["What was measured", "Stages", "Kernels", "From rest", "A drag", "Learning"] {
+        for title in ["What was measured", "Stages", "Kernels", "From rest", "A drag", "Learning", "Opening"] {
             let section = page.split("## ").find(|section| section.starts_with(title));
             let section = section.unwrap_or_else(|| panic!("no section {title} in\n{page}"));
             assert!(title == "What was measured" || section.contains("|\n| "), "no table in\n{section}");
