@@ -126,7 +126,7 @@ impl Fault {
     }
 }
 
-/// Why a file was not saved. Nothing was written or touched.
+/// Why a file was not saved. Unless the error says otherwise, nothing was written or touched.
 #[derive(Debug, thiserror::Error)]
 pub enum SaveError {
     /// The file system refused.
@@ -134,6 +134,19 @@ pub enum SaveError {
     Write {
         /// The target.
         path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// The mesh is saved, but a file that belongs to it could not take its name.
+    #[error(
+        "{}: saved, but {} could not be replaced: {source}; what belongs there waits in a hidden file beside it, save again",
+        path.display(), beside.display()
+    )]
+    Unfinished {
+        /// The target.
+        path: PathBuf,
+        /// The file beside it.
+        beside: PathBuf,
         /// What the system said.
         source: std::io::Error,
     },

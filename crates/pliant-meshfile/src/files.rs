@@ -1,10 +1,10 @@
-//! Reading and writing of files: only regular ones, only so large, only where they belong, and never half.
+//! Reading of files: only regular ones, only so large, only where they belong.
 
 use crate::watch::Stage;
-use crate::{Fault, OpenError, SaveError};
+use crate::{Fault, OpenError};
 use std::fs::{self, File};
-use std::io::{Read, Write};
-use std::path::{Path, PathBuf};
+use std::io::Read;
+use std::path::Path;
 
 /// Reads a regular file of at most `limit` bytes.
 pub(crate) fn read(path: &Path, limit: u64) -> Result<Vec<u8>, OpenError> {
@@ -96,82 +96,5 @@ pub(crate) fn same_folder(a: &Path, b: &Path) -> bool {
     match (folder_of(a).canonicalize(), folder_of(b).canonicalize()) {
         (Ok(a), Ok(b)) => a == b,
         _ => false,
-    }
-}
-
-/// Writes files so that each is the old one or the new one, never part of one, whenever the program is stopped.
-///
-/// All are first written in full as temporaries beside their targets and brought to the disk, then renamed in order:
-/// list the main file last. When a step before the renaming fails, nothing is left or touched. A link is saved through
-/// for the main file, which a person chose; links in place of the files beside it are replaced, wherever they lead.
-pub(crate) fn write_all(files: &[(PathBuf, Vec<u8>)]) -> Result<(), SaveError> {
-    let mut staged = Vec::new();
-    for (i, (path, bytes)) in files.iter().enumerate() {
-        let is_main = i + 1 == files.len();
-        let target = if is_main { path.canonicalize().ok() } else { None };
-        let target = target.unwrap_or_else(|| path.clone());
-        staged.push(Staged::new(target, bytes).map_err(|source| SaveError::Write { path: path.clone(), source })?);
-    }
-    for file in &mut staged {
-        file.publish().map_err(|source| SaveError::Write { path: file.target.clone(), source })?;
-    }
-    Ok(())
-}
-
-/// A complete temporary that still has to take its target's name; removed when dropped before.
-struct Staged {
-    temporary: PathBuf,
-    target: PathBuf,
-    published: bool,
-}
-
-impl Staged {
-    fn new(target: PathBuf, bytes: &[u8]) -> std::io::Result<Staged> {
-        let permissions = match fs::symlink_metadata(&target) {
-            Ok(old) if old.is_symlink() => None,
-            Ok(old) if !old.is_file() => return Err(std::io::Error::other("the target is not a regular file")),
-            Ok(old) if old.permissions().readonly() => {
-                return Err(std::io::Error::new(std::io::ErrorKind::PermissionDenied, "the file is read-only"));
-            }
-            Ok(old) => Some(old.permissions()),
-            Err(_) => None,
-        };
-        let name = target.file_name().ok_or_else(|| std::io::Error::other("the target has no file name"))?;
-        for attempt in 0..100 {
-            let mut hidden = std::ffi::OsString::from(".");
-            hidden.push(name);
-            hidden.push(format!(".{}-{attempt}.tmp", std::process::id()));
-            let temporary = folder_of(&target).join(hidden);
-            let mut file = match File::create_new(&temporary) {
-                Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => continue,
-                other => other?,
-            };
-            let staged = Staged { temporary, target, published: false };
-            file.write_all(bytes)?;
-            if let Some(permissions) = permissions {
-                file.set_permissions(permissions)?;
-            }
-            file.sync_all()?;
-            return Ok(staged);
-        }
-        Err(std::io::Error::other("too many temporary files lie beside the target"))
-    }
-
-    fn publish(&mut self) -> std::io::Result<()> {
-        fs::rename(&self.temporary, &self.target)?;
-        self.published = true;
-        // The rename is durable once the folder is on the disk; a system that cannot sync folders does so itself.
-        if let Ok(folder) = File::open(folder_of(&self.target)) {
-            let _ = folder.sync_all();
-        }
-        Ok(())
-    }
-}
-
-impl Drop for Staged {
-    fn drop(&mut self) {
-        if !self.published {
-            let _ = fs::remove_file(&self.temporary);
-        }
     }
 }

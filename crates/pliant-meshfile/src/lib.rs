@@ -29,6 +29,7 @@ mod opening;
 mod polygon;
 pub mod poses;
 mod rigidity;
+mod saving;
 mod shape;
 #[cfg(test)]
 mod tests;
@@ -40,5 +41,6 @@ pub use format::Format;
 pub use mesh_file::{MeshFile, side_files};
 pub use opening::{OpenOptions, from_bytes, open};
 pub use rigidity::read_rigidity;
+pub use saving::SaveOptions;
 pub use shape::Part;
 pub use weld::{Weld, Welding};

@@ -2,6 +2,7 @@
 
 use crate::formats::{Before, Edit, Motion, Opened, Output, Source, entry};
 use crate::generated::Generated;
+use crate::saving::{self, Known, SaveOptions};
 use crate::shape::{NO_MATERIAL, Part};
 use crate::watch::Stage;
 use crate::{Fault, Format, SaveError, Warning, Weld, Welding, budget, files, normals, rigidity};
@@ -37,6 +38,7 @@ pub struct MeshFile {
     /// What was skipped or changed for display on opening.
     pub warnings: Vec<Warning>,
     source: Arc<dyn Source>,
+    pub(crate) known: Known,
 }
 
 /// The files that [`MeshFile::save`] may write beside a mesh file of this name: whatever else lies there by these names
@@ -119,6 +121,7 @@ impl MeshFile {
             parts: opened.parts,
             warnings: opened.warnings,
             source: opened.source,
+            known: Known::default(),
         }
     }
 
@@ -180,10 +183,21 @@ impl MeshFile {
 
     /// Writes this file with new world positions and r of its surface points, everything else as it was opened.
     ///
-    /// `to` may be the file that was opened. The file is complete or untouched whatever happens. Returns what the
-    /// format of `to` could not hold. Without `rigidity` the file's own stays, if it has any; a sidecar that another
-    /// model left beside `to` is then filled with ones.
+    /// `to` may be the file that was opened, which is then kept as `NAME~` when it is first saved over. The file is
+    /// complete or untouched whatever happens. Returns what the format of `to` could not hold. Without `rigidity` the
+    /// file's own stays, if it has any; a sidecar that another model left beside `to` is then filled with ones.
     pub fn save(&self, to: &Path, points: &[DVec3], rigidity: Option<&[u16]>) -> Result<Vec<Warning>, SaveError> {
+        self.save_with(to, points, rigidity, SaveOptions::default())
+    }
+
+    /// [`MeshFile::save`] with options.
+    pub fn save_with(
+        &self,
+        to: &Path,
+        points: &[DVec3],
+        rigidity: Option<&[u16]>,
+        options: SaveOptions,
+    ) -> Result<Vec<Warning>, SaveError> {
         let format = Format::of(to).ok_or_else(|| SaveError::UnknownFormat { path: to.to_owned() })?;
         let edit = self.edit(to, points, rigidity)?;
         let entry = entry(format);
@@ -191,12 +205,12 @@ impl MeshFile {
             Some(output) => output?,
             None => self.convert(&edit, to, format)?,
         };
-        let mut all = output.beside;
+        let mut beside = output.beside;
         if entry.rigidity_in_sidecar {
-            all.extend(self.sidecar(&edit, to, output.origin.as_deref(), &mut output.warnings));
+            beside.extend(self.sidecar(&edit, to, output.origin.as_deref(), &mut output.warnings));
         }
-        all.push((to.to_owned(), output.bytes));
-        files::write_all(&all)?;
+        let known = options.backup.then_some(&self.known);
+        output.warnings.extend(saving::write(to, &output.bytes, &beside, known)?);
         Ok(output.warnings)
     }
 

@@ -1,6 +1,7 @@
 //! The ways in: a file or bytes, opened as is wished.
 
 use crate::formats::{Input, entry};
+use crate::saving::{Known, Unfinished};
 use crate::watch::{Stage, watched};
 use crate::{Fault, Format, MeshFile, OpenError, Welding, budget, files, rigidity};
 use std::ops::ControlFlow;
@@ -51,7 +52,7 @@ impl OpenOptions {
 
     /// Opens a mesh file from memory; `name` stands for its path in messages. No references but data URIs are followed.
     pub fn from_bytes(&self, bytes: &[u8], format: Format, name: &str) -> Result<MeshFile, OpenError> {
-        let input = Input { bytes: bytes.to_vec(), folder: None, name, stage: Stage::unwatched() };
+        let input = Input { bytes: bytes.to_vec(), folder: None, unfinished: None, name, stage: Stage::unwatched() };
         self.read(input, format).map_err(|fault| fault.in_file(name))
     }
 
@@ -64,11 +65,19 @@ impl OpenOptions {
         };
         let bytes = files::read_in_stages(path, budget::FILE_BYTES, stage.part(0.0, READ))?;
         let name = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
-        let input = Input { bytes, folder: Some(files::folder_of(path)), name: &name, stage: stage.part(READ, 1.0) };
+        let unfinished = Unfinished::of(path, &bytes);
+        let input = Input {
+            bytes,
+            folder: Some(files::folder_of(path)),
+            unfinished: unfinished.as_ref(),
+            name: &name,
+            stage: stage.part(READ, 1.0),
+        };
         let mut file = self.read(input, format).map_err(|fault| fault.in_file(path))?;
         file.path = Some(path.to_owned());
+        file.known = Known::opened(path);
         if entry(format).rigidity_in_sidecar {
-            read_sidecar(&mut file, path)?;
+            read_sidecar(&mut file, path, unfinished.as_ref())?;
         }
         stage.tell(1, 1).map_err(|fault| fault.in_file(path))?;
         Ok(file)
@@ -86,8 +95,10 @@ impl OpenOptions {
 }
 
 /// A sidecar that is broken is an error, since saving over it would lose it.
-fn read_sidecar(file: &mut MeshFile, mesh: &Path) -> Result<(), OpenError> {
+fn read_sidecar(file: &mut MeshFile, mesh: &Path, unfinished: Option<&Unfinished>) -> Result<(), OpenError> {
     let sidecar = rigidity::sidecar_of(mesh);
+    let waiting = unfinished.and_then(|unfinished| unfinished.temporary_of(sidecar.file_name()?));
+    let sidecar = waiting.map_or(sidecar, Path::to_owned);
     if !files::is_taken(&sidecar) {
         return Ok(());
     }

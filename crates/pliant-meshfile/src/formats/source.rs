@@ -1,5 +1,6 @@
 //! The words between a format and the rest of the crate.
 
+use crate::saving::Unfinished;
 use crate::shape::{Part, Shape};
 use crate::watch::Stage;
 use crate::{Fault, Format, SaveError, Warning, Weld};
@@ -14,6 +15,8 @@ pub(crate) struct Input<'a> {
     pub(crate) bytes: Vec<u8>,
     /// Where references may be followed; nowhere for files from memory.
     pub(crate) folder: Option<&'a Path>,
+    /// Files beside the model that an interrupted saving left under other names.
+    pub(crate) unfinished: Option<&'a Unfinished>,
     /// Name of the model, for parts that have none.
     pub(crate) name: &'a str,
     /// To be told how far reading is, every few milliseconds of work, and asked whether to go on.

@@ -54,7 +54,7 @@ fn a_file_can_be_saved_over_itself() {
     file.save(&path, &points, None).expect("saved");
     assert_eq!(crate::open(&path).expect("a mesh").points(), points);
     let n = std::fs::read_dir(folder.path()).expect("the folder").count();
-    assert_eq!(n, 1, "no temporary stays");
+    assert_eq!(n, 2, "the file and its backup, no temporary");
 }
 
 #[test]

@@ -25,7 +25,7 @@ use std::sync::Arc;
 /// Reads an OBJ file.
 pub(super) fn read(input: Input<'_>) -> Result<Opened, Fault> {
     let mut parsed = parse::parse(&input.bytes, input.name, input.stage)?;
-    let materials = materials::load(&mut parsed, input.folder);
+    let materials = materials::load(&mut parsed, input.folder, input.unfinished);
     let color_of = |material: Option<usize>| material.map_or(NO_MATERIAL, |m| materials[m].base_color);
     let part = |part: &ShapePart| Part {
         name: part.name.clone(),

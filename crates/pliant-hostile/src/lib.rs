@@ -1,0 +1,3 @@
+//! x
+pub mod exercise;
+pub mod random;
