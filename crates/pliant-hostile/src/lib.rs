@@ -1,3 +1,19 @@
-//! x
+//! Broken and hostile mesh files, and the proof that none does harm.
+//!
+//! **Promise.** No file, however broken or hostile, ends the program, hangs it, eats the machine's memory or makes it
+//! read another file; and a saving that is stopped leaves the old file or the new one.
+//!
+//! | module | what it does |
+//! |---|---|
+//! | [`crafted`] | makes files that are odd in one way, each with what must become of it |
+//! | [`mutate`] | damages sound files, the same for the same seed |
+//! | [`exercise`] | does with a file all that the program does: opening, saving, poses |
+//! | [`run`] | does so in processes with limits |
+//!
+//! The fuzz targets in `fuzz/` call the same [`exercise`], guided by coverage.
+
+pub mod crafted;
 pub mod exercise;
+pub mod mutate;
 pub mod random;
+pub mod run;
