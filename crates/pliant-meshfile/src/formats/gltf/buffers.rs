@@ -62,6 +62,9 @@ fn load_one(
     folder: Option<&Path>,
     limit: u64,
 ) -> Result<Buffer, String> {
+    if !buffer.is_object() {
+        return Err("is not an object".into());
+    }
     let Some(uri) = buffer.get("uri") else {
         return match container.binary {
             Some(_) if index == 0 => Ok(Buffer::Chunk),
