@@ -67,14 +67,6 @@ pub enum Fault {
         /// How many are accepted.
         limit: u64,
     },
-    /// A way of storing geometry that is not read.
-    #[error("uses the glTF extension {extension}, which is not supported: save it without {what} and open that")]
-    Extension {
-        /// Name of the extension.
-        extension: &'static str,
-        /// What to switch off in the program that wrote it.
-        what: &'static str,
-    },
     /// A regular file was expected.
     #[error("is not a regular file")]
     NotAFile,

@@ -2,7 +2,12 @@
 //!
 //! The JSON is kept as it is and read through checks of our own: every accessor, view, index, stride, type and node in
 //! 64-bit arithmetic, before anything is reserved or followed. A typed document would lose members it does not know,
-//! and the usual crate's reader panics on several broken files; it checks this reader in the tests instead.
+//! and the usual crate's reader panics on several broken files; it checks this reader in the tests instead. Saving
+//! changes the text of the JSON where it must and copies the rest ([`patch`]); geometry that extensions compress is decoded
+//! on opening ([`compressed`]).
+//!
+//! A mesh is opened once, where the first node of the default scene puts it, and all nodes that use it follow what is
+//! bent. Meshes outside that scene are opened too, since vertices are numbered through the whole file.
 
 mod access;
 mod base64;

@@ -14,20 +14,28 @@ use draco_core::mesh::Mesh;
 use draco_core::mesh_decoder::MeshDecoder;
 use draco_core::{DataType, decode_limits::DecodeLimits};
 use serde_json::Value;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// Name of the extension.
 pub(in super::super) const EXTENSION: &str = "KHR_draco_mesh_compression";
 
-/// Triangles that any stream may hold, and how many more for each of its bytes. A stream of three kilobytes can stand for
-/// millions, so that its length alone bounds neither time nor memory: two million took 0.9 s and 130 MB to decode. A wavy
-/// sheet was measured to have 5 triangles a byte; beyond 32 there are only large flat ones.
+/// Triangles that the streams of any file may hold, and how many more for each of their bytes. A stream of three
+/// kilobytes can stand for millions, so that its length alone bounds neither time nor memory: two million took 0.9 s and
+/// 130 MB to decode. A wavy sheet was measured to have 5 triangles a byte; beyond 32 there are only large flat ones.
 const FACES: u64 = 2_000_000;
 const FACES_PER_BYTE: u64 = 32;
 
 /// Decodes every primitive that uses the extension, by accessor.
 pub(super) fn decode(data: Data<'_>, purse: &mut budget::Purse) -> Result<HashMap<usize, Plain>, Fault> {
-    let mut decoder = Decoder { data, purse, last: None, sources: HashMap::new(), accessors: HashMap::new() };
+    let mut decoder = Decoder {
+        data,
+        purse,
+        last: None,
+        seen: HashSet::new(),
+        faces_left: FACES,
+        sources: HashMap::new(),
+        accessors: HashMap::new(),
+    };
     for (m, mesh) in json::list(data.document, "meshes")?.iter().enumerate() {
         let primitives = mesh.get("primitives").and_then(Value::as_array);
         for (p, primitive) in primitives.into_iter().flatten().enumerate() {
@@ -47,6 +55,9 @@ struct Decoder<'a, 'b> {
     purse: &'b mut budget::Purse,
     /// The last view decoded: primitives may share one.
     last: Option<(usize, Mesh)>,
+    /// Views that were decoded, and how many triangles may still come.
+    seen: HashSet<usize>,
+    faces_left: u64,
     sources: HashMap<usize, Origin>,
     accessors: HashMap<usize, Plain>,
 }
@@ -112,15 +123,18 @@ impl Decoder<'_, '_> {
         }
         self.last = None;
         let bytes = self.data.view(view, place)?.bytes;
-        let faces = FACES.saturating_add(FACES_PER_BYTE.saturating_mul(bytes.len() as u64));
+        if self.seen.insert(view) {
+            self.faces_left = self.faces_left.saturating_add(FACES_PER_BYTE.saturating_mul(bytes.len() as u64));
+        }
         let limits = DecodeLimits::default()
             .with_max_points(budget::VERTICES)
-            .with_max_faces(faces.min(budget::TRIANGLES))
+            .with_max_faces(self.faces_left.min(budget::TRIANGLES))
             .with_max_decoded_bytes(self.purse.left());
         let mut mesh = Mesh::new();
         MeshDecoder::new()
             .decode(&mut DecoderBuffer::new(bytes).with_limits(limits), &mut mesh)
             .map_err(|error| Fault::at(place, format!("cannot be decoded: {error}")))?;
+        self.faces_left = self.faces_left.saturating_sub(mesh.num_faces() as u64);
         budget::check("vertices", mesh.num_points() as u64, budget::VERTICES)?;
         let attributes = (0..mesh.num_attributes()).map(|i| mesh.attribute(i).buffer().data().len());
         self.purse.spend(attributes.sum::<usize>() + 12 * mesh.num_faces())?;

@@ -80,6 +80,9 @@ pub(super) fn stand_ins(document: &Value, n_buffers: usize) -> Result<Vec<bool>,
             *slot = true;
         }
     };
+    for (slot, buffer) in of_compressed.iter_mut().zip(json::list(document, "buffers")?) {
+        *slot = meshopt::extension(buffer).and_then(|extension| extension.get("fallback")) == Some(&Value::Bool(true));
+    }
     for view in json::list(document, "bufferViews")? {
         match meshopt::extension(view) {
             Some(extension) => {
