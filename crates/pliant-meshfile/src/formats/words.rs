@@ -1,6 +1,8 @@
 //! Words of text with blanks and line ends between them, and their places: what the text formats without continuation
 //! lines share.
 
+use crate::budget;
+
 /// Walks over the words of a text. Lines end at `\n`, `\r\n` or `\r`.
 #[derive(Clone)]
 pub(super) struct Words<'a> {
@@ -64,13 +66,13 @@ impl<'a> Words<'a> {
         }
     }
 
-    /// Everything up to the end of the line, without blanks around it.
+    /// Everything up to the end of the line as a name, without blanks around it.
     pub(super) fn rest_of_line(&mut self) -> String {
         let start = self.at;
         while self.at < self.bytes.len() && !is_line_end(self.bytes[self.at]) {
             self.at += 1;
         }
-        String::from_utf8_lossy(&self.bytes[start..self.at]).trim().to_owned()
+        name(&self.bytes[start..self.at])
     }
 
     /// The line a place is in, for messages: `line 7`.
@@ -111,8 +113,19 @@ impl Word<'_> {
     }
 
     pub(super) fn shown(&self) -> String {
-        crate::rigidity::quoted(&String::from_utf8_lossy(self.text))
+        crate::rigidity::quoted(&self.name())
     }
+
+    /// The word as text, cut where it is too long for a name.
+    pub(super) fn name(&self) -> String {
+        name(self.text)
+    }
+}
+
+/// Bytes as text without blanks around it; a line of a gigabyte is not copied.
+fn name(bytes: &[u8]) -> String {
+    let short = &bytes[..bytes.len().min(budget::NAME_BYTES)];
+    budget::short_name(String::from_utf8_lossy(short).trim().to_owned())
 }
 
 /// The line a place is in, from 1, for messages.

@@ -1,7 +1,8 @@
 //! Thousands of damaged files: each is opened or refused, and what opens is sound.
 
-use super::support::{OBJ, seam_glb};
+use super::support::{OBJ, saved, seam_glb};
 use crate::{Format, from_bytes};
+use glam::DVec3;
 
 /// A generator of numbers that are the same in every run (Marsaglia's xorshift).
 pub(crate) struct Numbers(pub(crate) u64);
@@ -47,6 +48,32 @@ pub(super) fn survives(original: &[u8], format: Format, seed: u64, n: usize) {
         assert!(file.triangles.iter().flatten().all(|&v| (v as usize) < n), "round {round}: index beyond {n}");
         let covered: usize = file.parts.iter().map(|part| part.triangles.len()).sum();
         assert_eq!(covered, file.triangles.len(), "round {round}: triangles in parts");
+    }
+}
+
+/// Of the damaged files that open, one in `every` is saved as it was and bent: what a reader lets pass, a writer has to
+/// stand.
+pub(super) fn survives_saving(original: &[u8], format: Format, seed: u64, [n, every]: [usize; 2]) {
+    let mut numbers = Numbers(seed);
+    let name = format!("damaged.{}", format.extension());
+    let mut n_opened = 0;
+    for round in 0..n {
+        let bytes = mutated(original, &mut numbers);
+        let Ok(file) = from_bytes(&bytes, format, "mutated") else { continue };
+        n_opened += 1;
+        if n_opened % every != 0 {
+            continue;
+        }
+        let (same, _) = saved(&file, &name, &file.points(), None);
+        assert!(same == bytes, "round {round}: changed without an edit");
+        // Small numbers everywhere: a damaged one may be as large as its type allows, and would pass it when bent.
+        let points: Vec<DVec3> =
+            file.points().iter().map(|p| (*p * 0.5).clamp(DVec3::splat(-1e30), DVec3::splat(1e30))).collect();
+        let rigidity: Vec<u16> = (0..points.len()).map(|i| 1 + i as u16 % 1000).collect();
+        let (_, again) = saved(&file, &name, &points, Some(&rigidity));
+        assert_eq!(again.triangles.len(), file.triangles.len(), "round {round}");
+        let expected: Vec<u16> = file.weld.point_of_vertex.iter().map(|&point| rigidity[point as usize]).collect();
+        assert_eq!(again.rigidity, Some(expected), "round {round}");
     }
 }
 

@@ -1,7 +1,7 @@
 //! OFF in, the same OFF out.
 
 use super::bad_files::refused;
-use super::mutation::survives;
+use super::mutation::{survives, survives_saving};
 use super::support::saved;
 use crate::{Format, MeshFile, from_bytes};
 use glam::{DVec3, Vec2};
@@ -149,4 +149,5 @@ fn bad_files_are_refused_by_place() {
 #[test]
 fn damaged_files_are_opened_or_refused() {
     survives(TEXT.as_bytes(), Format::Off, 0x5eed_0300, 4000);
+    survives_saving(TEXT.as_bytes(), Format::Off, 0x5eed_0301, [1000, 10]);
 }

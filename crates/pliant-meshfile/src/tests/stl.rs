@@ -1,7 +1,7 @@
 //! STL in, the same STL out.
 
 use super::bad_files::refused;
-use super::mutation::survives;
+use super::mutation::{survives, survives_saving};
 use super::support::{bent, saved};
 use crate::{Format, MeshFile, from_bytes, open};
 use glam::DVec3;
@@ -163,6 +163,8 @@ fn bad_files_are_refused_by_place() {
 fn damaged_files_are_opened_or_refused() {
     survives(TEXT.as_bytes(), Format::Stl, 0x5eed_0200, 3000);
     survives(&binary(), Format::Stl, 0x5eed_0201, 3000);
+    survives_saving(TEXT.as_bytes(), Format::Stl, 0x5eed_0202, [1000, 10]);
+    survives_saving(&binary(), Format::Stl, 0x5eed_0203, [1000, 10]);
 }
 
 #[test]

@@ -78,7 +78,8 @@ fn keyword(words: &mut Words<'_>) -> Result<Has, String> {
         words.at = word.start;
         return Ok(Has::default());
     }
-    let text = word.text.to_ascii_uppercase();
+    // The longest is STCN4nOFF, with a count behind it.
+    let text = word.text[..word.text.len().min(32)].to_ascii_uppercase();
     let end = text.windows(3).position(|window| window == b"OFF").ok_or_else(foreign)?;
     // `nOFF`, unlike `NOFF` and `noff`, tells its dimension; `4OFF` has four.
     let declared = &word.text[..end];

@@ -176,7 +176,7 @@ fn declared(words: &mut Words<'_>) -> Result<(String, u64), String> {
     let name = words.on_line().ok_or("an element without a name")?;
     let count = words.on_line().ok_or_else(|| format!("element {} has no count", name.shown()))?;
     let n = count.whole().ok_or_else(|| format!("{} is no count of elements", count.shown()))?;
-    Ok((String::from_utf8_lossy(name.text).into_owned(), n))
+    Ok((name.name(), n))
 }
 
 fn property(words: &mut Words<'_>) -> Result<Property, String> {
@@ -197,6 +197,5 @@ fn property(words: &mut Words<'_>) -> Result<Property, String> {
         Kind::Scalar(scalar(Some(first))?)
     };
     let name = words.on_line().ok_or("a property without a name")?;
-    let name = String::from_utf8_lossy(name.text).into_owned();
-    Ok(Property { name, kind, type_at: first.start..first.end() })
+    Ok(Property { name: name.name(), kind, type_at: first.start..first.end() })
 }

@@ -2,7 +2,10 @@
 
 use super::model::{Table, ply, table};
 use crate::tests::bad_files::refused;
-use crate::{Format, tests::mutation::survives};
+use crate::{
+    Format,
+    tests::mutation::{survives, survives_saving},
+};
 
 /// A text with these lines for the header's element lines and the body.
 fn text(vertex: &str, face: &str, body: &str) -> Vec<u8> {
@@ -110,6 +113,8 @@ fn counts_beyond_the_file_are_refused_at_once() {
 #[test]
 fn damaged_files_are_opened_or_refused() {
     for (i, encoding) in super::model::ENCODINGS.iter().enumerate() {
-        survives(&ply(encoding, "\n", &super::model::tables()), Format::Ply, 0x5eed_0100 + i as u64, 3000);
+        let bytes = ply(encoding, "\n", &super::model::tables());
+        survives(&bytes, Format::Ply, 0x5eed_0100 + i as u64, 3000);
+        survives_saving(&bytes, Format::Ply, 0x5eed_0110 + i as u64, [1000, 10]);
     }
 }
