@@ -107,6 +107,38 @@ fn a_bend_changes_positions_and_normals_and_nothing_else_of_a_binary_file() {
 }
 
 #[test]
+fn colors_of_triangles_are_read_by_both_conventions() {
+    // Five bits a channel: 31, 0 and 5 of 31.
+    let (bits, color) = (31 | 5 << 10, [1.0, 0.0, 5.0 / 31.0, 1.0]);
+    let swapped = [5.0 / 31.0, 0.0, 1.0, 1.0];
+    let object = [128.0 / 255.0, 64.0 / 255.0, 32.0 / 255.0, 1.0];
+    for (magics, attributes, expected) in [
+        (true, [bits, 0x8000, 0x8000, 0x8000], Some([color, object])),
+        (false, [0x8000 | bits, 0, 0, 0], Some([swapped, crate::shape::NO_MATERIAL])),
+        (true, [0x8000, 0x8001, 0x8002, 0x8003], None),
+        (true, [0; 4], None),
+        (false, [bits, 0, 0, 0], None),
+    ] {
+        let mut bytes = binary();
+        if !magics {
+            bytes[..80].fill(0);
+        }
+        for (t, attribute) in attributes.iter().enumerate() {
+            bytes[84 + 50 * t + 48..84 + 50 * t + 50].copy_from_slice(&(*attribute as u16).to_le_bytes());
+        }
+        let file = stl(&bytes);
+        let got = file.colors.as_ref().map(|colors| [colors[2], colors[3]]);
+        assert_eq!(got, expected, "{magics} {attributes:?}");
+        assert_eq!(file.parts[0].base_color, if magics { object } else { crate::shape::NO_MATERIAL });
+        assert_eq!(saved(&file, "colored.stl", &file.points(), None).0, bytes, "{magics} {attributes:?}");
+        let (_, ply) = saved(&file, "colored.ply", &file.points(), None);
+        let rounded = |color: [f32; 4]| color.map(|x| (x * 255.0).round() as u8);
+        let got = ply.colors.map(|colors| [rounded(colors[2]), rounded(colors[3])]);
+        assert_eq!(got, expected.map(|colors| colors.map(rounded)), "{magics} {attributes:?}");
+    }
+}
+
+#[test]
 fn rigidity_of_corners_lives_in_a_sidecar() {
     for bytes in [TEXT.as_bytes(), &binary()] {
         let file = stl(bytes);

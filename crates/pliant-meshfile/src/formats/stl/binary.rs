@@ -2,6 +2,7 @@
 
 use super::{Parsed, check_count, turned_normal};
 use crate::formats::Edit;
+use crate::shape::NO_MATERIAL;
 use crate::{Fault, SaveError, Warning, budget};
 use glam::{DVec3, Vec3};
 use std::path::Path;
@@ -48,12 +49,47 @@ pub(super) fn parse(bytes: &[u8], name: &str) -> Result<Parsed, Fault> {
         }
         out.has_attributes |= triangle[48..] != [0, 0];
     }
+    if n > 0 {
+        let object = object_color(bytes);
+        out.base_color = object.unwrap_or(NO_MATERIAL);
+        // Without any bit set nobody meant black.
+        out.colors = if out.has_attributes { colors(&bytes[HEADER..end], object) } else { None };
+    }
     out.solids.push((budget::short_name(name.to_owned()), 0..n));
     if end < bytes.len() {
         let surplus = bytes.len() - end;
         out.warnings.push(Warning(format!("{surplus} bytes after the last triangle are kept and not read")));
     }
     Ok(out)
+}
+
+/// What the word `COLOR=` in the header (of Materialise Magics) says of all triangles without a color of their own.
+fn object_color(bytes: &[u8]) -> Option<[f32; 4]> {
+    let header = &bytes[..FREE];
+    let at = header.windows(6).position(|word| word == b"COLOR=")? + 6;
+    let [red, green, blue] = *header.get(at..at + 4)?.first_chunk()?;
+    Some([red, green, blue, 255].map(|channel| f32::from(channel) / 255.0))
+}
+
+/// The color that the two bytes behind a triangle give it: five bits a channel, and one that tells whether they do. Magics
+/// means the opposite by it, and lists the channels the other way round, than VisCAM and SolidView.
+fn triangle_color(bits: u16, magics: bool) -> Option<[f32; 4]> {
+    let channel = |shift: u32| f32::from((bits >> shift) & 31) / 31.0;
+    let [low, middle, high] = [channel(0), channel(5), channel(10)];
+    match (bits & 0x8000 != 0, magics) {
+        (true, false) => Some([high, middle, low, 1.0]),
+        (false, true) => Some([low, middle, high, 1.0]),
+        _ => None,
+    }
+}
+
+/// A color for each corner, where a triangle has one of its own.
+fn colors(triangles: &[u8], object: Option<[f32; 4]>) -> Option<Vec<[f32; 4]>> {
+    let of = |triangle: &[u8]| triangle_color(u16::from_le_bytes([triangle[48], triangle[49]]), object.is_some());
+    triangles.chunks_exact(TRIANGLE).any(|triangle| of(triangle).is_some()).then(|| {
+        let rest = object.unwrap_or(NO_MATERIAL);
+        triangles.chunks_exact(TRIANGLE).flat_map(|triangle| [of(triangle).unwrap_or(rest); 3]).collect()
+    })
 }
 
 /// The file again; a number is touched only if it changed.

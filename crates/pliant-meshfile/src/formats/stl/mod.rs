@@ -23,8 +23,8 @@ use std::sync::Arc;
 struct StlSource {
     bytes: Vec<u8>,
     is_text: bool,
-    /// Whether bytes behind the triangles are used.
-    has_attributes: bool,
+    /// Whether bytes behind the triangles are used, and not for colors.
+    has_unread: bool,
 }
 
 /// What is read of a file.
@@ -34,6 +34,9 @@ struct Parsed {
     positions: Vec<DVec3>,
     solids: Vec<(String, Range<usize>)>,
     has_attributes: bool,
+    /// Of each corner.
+    colors: Option<Vec<[f32; 4]>>,
+    base_color: [f32; 4],
     warnings: Vec<Warning>,
 }
 
@@ -43,16 +46,18 @@ pub(super) fn read(input: Input<'_>) -> Result<Opened, Fault> {
     let parsed =
         if is_text { ascii::parse(&input.bytes, input.name)? } else { binary::parse(&input.bytes, input.name)? };
     let n = parsed.positions.len() as u32 / 3;
-    let part = |(name, triangles)| Part { name, triangles, base_color: NO_MATERIAL };
+    let base_color = if is_text { NO_MATERIAL } else { parsed.base_color };
+    let part = |(name, triangles)| Part { name, triangles, base_color };
+    let has_unread = parsed.has_attributes && parsed.colors.is_none();
     Ok(Opened {
         positions: parsed.positions,
         triangles: (0..n).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect(),
         rigidity: None,
         uvs: None,
-        colors: None,
+        colors: parsed.colors,
         parts: parsed.solids.into_iter().map(part).collect(),
         warnings: parsed.warnings,
-        source: Arc::new(StlSource { bytes: input.bytes, is_text, has_attributes: parsed.has_attributes }),
+        source: Arc::new(StlSource { bytes: input.bytes, is_text, has_unread }),
     })
 }
 
@@ -107,9 +112,10 @@ impl Source for StlSource {
         let corner = |vertex| Corner { vertex, uv: NONE, normal: NONE };
         let part =
             |part: &Part| ShapePart { name: part.name.clone(), triangles: part.triangles.clone(), material: None };
-        let left_behind = self.has_attributes.then_some("attribute bytes (colors of triangles)").into_iter().collect();
+        let left_behind = self.has_unread.then_some("the bytes behind triangles").into_iter().collect();
         Shape {
             positions: edit.positions.clone(),
+            colors: edit.mesh.colors.clone(),
             triangles: edit.mesh.triangles.iter().map(|t| t.map(corner)).collect(),
             parts: edit.mesh.parts.iter().map(part).collect(),
             rigidity: edit.rigidity.clone().or_else(|| edit.mesh.rigidity.clone()),
