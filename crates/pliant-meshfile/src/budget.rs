@@ -75,6 +75,11 @@ impl Purse {
         self.limit.saturating_sub(self.spent)
     }
 
+    /// What was spent so far.
+    pub(crate) fn spent(&self) -> u64 {
+        self.spent
+    }
+
     /// For the names of parts, of which one can serve every part of a file.
     pub(crate) fn of_names() -> Purse {
         Purse::new("bytes in the names of parts", ALL_NAME_BYTES)

@@ -42,6 +42,26 @@ fn info_of_a_sound_closed_mesh_finds_no_defects() {
 }
 
 #[test]
+fn vertices_are_welded_as_is_wished() {
+    let folder = Folder::new();
+    // Two triangles whose common edge is written twice, the second time 0.001 off at one end.
+    let mesh = folder.write("gap.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 0 0\nv 1 1 0.001\nv 0 1 0\nf 1 2 3\nf 4 5 6\n");
+    for (welding, points) in [("exact", 5), ("never", 6), ("0.0005", 5), ("0.01", 4)] {
+        let told = pliant(["info", &mesh, "--json", "--weld", welding]).expect_done().out;
+        let facts: Value = serde_json::from_str(&told).expect("JSON");
+        assert_eq!(facts["mesh"]["surface_points"], points, "--weld {welding}");
+        assert_eq!(facts["mesh"]["vertices"], 6, "--weld {welding}");
+    }
+    let handles = folder.write("h.json", r#"{"fixed": [0, 1, 5], "moved": [{"vertex": 2, "to": [1, 1, 0.5]}]}"#);
+    let out = folder.path("out.obj");
+    pliant(["deform", &mesh, "--handles", &handles, "-o", &out, "--weld", "0.01"]).expect_done();
+    let saved = pliant_meshfile::open(out.as_ref()).expect("opens again").positions;
+    assert_eq!(saved[2].to_array(), [1.0, 1.0, 0.5], "the point goes where it was sent");
+    let offset = saved[4].distance(saved[2]);
+    assert!((offset - 0.001).abs() < 1e-12, "the vertex welded to it keeps its distance, got {offset}");
+}
+
+#[test]
 fn render_writes_a_picture_of_the_size_asked_for_with_the_surface_in_it() {
     let folder = Folder::new();
     let mesh = folder.write("bar.obj", bar([8, 2, 2], [4.0, 1.0, 1.0]).obj());

@@ -94,6 +94,25 @@ fn a_mesh_that_arrives_after_further_changes_is_not_shown_without_asking() {
 }
 
 #[test]
+fn an_opening_that_is_canceled_leaves_the_document_and_says_nothing() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("other.obj");
+    std::fs::write(&path, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").expect("written");
+    let mut session = session_with(sheet(4));
+    session.start(Job::Open(path.clone()));
+    assert!(session.opening().is_some_and(|done| (0.0..=1.0).contains(&done)));
+    session.cancel_opening();
+    assert_eq!((session.opening(), session.running_job()), (None, None));
+    // The next one is not confused with it.
+    session.welding = pliant_meshfile::Welding::Never;
+    session.start(Job::Open(path));
+    wait_until(&mut session, "the mesh is open", |session| session.running_job().is_none());
+    assert_eq!(document(&session).model().mesh.n_vertices(), 3);
+    assert_eq!(document(&session).model().file.welding, pliant_meshfile::Welding::Never);
+    assert!(session.notices.list().iter().all(|notice| notice.kind != NoticeKind::Error));
+}
+
+#[test]
 fn every_sample_opens_and_bends() {
     for sample in Sample::ALL {
         let mut session = Session::new(|| {}).expect("a solver thread");

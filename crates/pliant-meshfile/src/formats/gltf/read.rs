@@ -8,12 +8,16 @@ use super::compressed::Decoded;
 use super::source::{Block, GltfSource, Primitive};
 use super::{buffers, container, json, nodes};
 use crate::shape::{NO_MATERIAL, Part};
+use crate::watch::Stage;
 use crate::{Fault, Warning, budget, rigidity};
 use attributes::{Attribute, finite};
 use glam::{DMat3, DMat4, DVec3, Vec2};
 use serde_json::Value;
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
+
+/// Vertices or triangles between two looks at whether the file is still wanted: some milliseconds.
+const PIECE: usize = 1 << 16;
 
 /// Reads a glTF or GLB file.
 pub(crate) fn read(input: Input<'_>) -> Result<Opened, Fault> {
@@ -28,7 +32,7 @@ pub(crate) fn read(input: Input<'_>) -> Result<Opened, Fault> {
     let data = Data { document: &document, buffers: &buffers, container: &container, decoded: &none };
     let decoded = Decoded::of(data)?;
     let data = Data { decoded: &decoded, ..data };
-    let mut reader = Reader::new(data, transforms, input.name);
+    let mut reader = Reader::new(data, transforms, input.name, input.stage);
     reader.meshes()?;
     let Reader { blocks, primitives, positions, triangles, rigidity, uvs, colors, parts, .. } = reader;
     let n = positions.len();
@@ -97,6 +101,9 @@ struct Reader<'a> {
     data: Data<'a>,
     transforms: Vec<DMat4>,
     name: &'a str,
+    stage: Stage<'a>,
+    /// Elements of all accessors, to tell how far reading is.
+    n_elements: u64,
     block_of: HashMap<usize, usize>,
     /// Attributes that a primitive has given for a block; they are read once however often they are named.
     given: HashSet<(usize, Attribute)>,
@@ -117,11 +124,15 @@ struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    fn new(data: Data<'a>, transforms: Vec<DMat4>, name: &'a str) -> Self {
+    fn new(data: Data<'a>, transforms: Vec<DMat4>, name: &'a str, stage: Stage<'a>) -> Self {
+        let accessors = json::list(data.document, "accessors").unwrap_or_default();
+        let counts = accessors.iter().filter_map(|accessor| accessor.get("count")?.as_u64());
         Reader {
             data,
             transforms,
             name,
+            stage,
+            n_elements: counts.fold(0, u64::saturating_add),
             block_of: HashMap::new(),
             given: HashSet::new(),
             turnable: HashMap::new(),
@@ -177,6 +188,9 @@ impl<'a> Reader<'a> {
         for (accessor, what) in [(uv, Attribute::Uv), (color, Attribute::Color)] {
             // What only matters to the eye is passed over where it is broken.
             if let Err(fault) = self.attribute_of(block, accessor, what) {
+                if matches!(fault, Fault::Canceled) {
+                    return Err(fault);
+                }
                 self.warnings.push(Warning(format!("{} are not shown: {fault}", what.words())));
             }
         }
@@ -215,6 +229,12 @@ impl<'a> Reader<'a> {
         Ok(checked.map(|_| accessor))
     }
 
+    /// Tells how far reading is; a fault when it is no longer wanted.
+    fn tell(&self) -> Result<(), Fault> {
+        let done = self.elements.spent().min(self.n_elements);
+        self.stage.tell(done as usize, self.n_elements as usize)
+    }
+
     /// A checked accessor, paid for.
     fn accessor(&mut self, index: usize) -> Result<Accessor<'a>, Fault> {
         let checked = self.data.accessor(index)?;
@@ -224,6 +244,7 @@ impl<'a> Reader<'a> {
 
     /// The numbers of an accessor, paid for.
     fn numbers(&mut self, checked: &Accessor<'_>) -> Result<Vec<f64>, Fault> {
+        self.tell()?;
         self.elements.spend(checked.count)?;
         Ok(checked.numbers())
     }
@@ -247,6 +268,9 @@ impl<'a> Reader<'a> {
         let numbers = self.numbers(&checked)?;
         self.positions.reserve_exact(checked.count);
         for (i, local) in numbers.chunks_exact(3).enumerate() {
+            if i % PIECE == 0 {
+                self.tell()?;
+            }
             let local = DVec3::new(local[0], local[1], local[2]);
             // Unplaced meshes keep their numbers to the bit, negative zeros too.
             let world = if world_from_local == DMat4::IDENTITY { local } else { block.to_world(local) };
@@ -284,6 +308,9 @@ impl<'a> Reader<'a> {
         let mirrored = DMat3::from_mat4(world_from_local).determinant() < 0.0;
         self.triangles.reserve(n_triangles);
         for t in 0..n_triangles {
+            if t % PIECE == 0 {
+                self.tell()?;
+            }
             let [a, b, c] = match mode {
                 4 => [corners[3 * t], corners[3 * t + 1], corners[3 * t + 2]],
                 5 => [corners[t], corners[t + 1 + t % 2], corners[t + 2 - t % 2]],

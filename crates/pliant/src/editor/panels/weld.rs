@@ -29,14 +29,12 @@ pub(super) fn choice(ui: &mut Ui, welding: &mut Welding, unit: f64) {
     });
 }
 
-/// What the open mesh is, how it was welded, and how to open it otherwise.
+/// How the open mesh was welded, and how to open it otherwise.
 pub(super) fn mesh(ui: &mut Ui, session: &mut Session, chosen: &mut Option<Action>) {
     let Some(document) = session.document() else { return };
-    let (model, file) = (document.model(), &document.model().file);
-    let (n_vertices, n_points, is) = (file.positions.len(), model.mesh.n_vertices(), file.welding);
+    let is = document.model().file.welding;
     // Gaps that a person wants closed are much smaller than edges.
-    let unit = 0.01 * model.mean_edge();
-    ui.label(RichText::new(format!("{n_vertices} vertices in the file, {n_points} points of the surface")).weak());
+    let unit = 0.01 * document.model().mean_edge();
     choice(ui, &mut session.welding, unit);
     if session.welding != is {
         ui.horizontal(|ui| {
