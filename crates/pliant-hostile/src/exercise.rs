@@ -25,19 +25,22 @@ pub enum Outcome {
 /// Where something that was promised does not hold.
 pub fn in_memory(bytes: &[u8], format: Format, folder: &Path) -> Outcome {
     match from_bytes(bytes, format, "input") {
-        Ok(file) => opened(&file, folder),
+        Ok(file) => opened(&file, folder, &|_, _| ()),
         Err(error) => refused(&error.to_string()),
     }
 }
+
+/// Looks at a file that was opened and at what was saved of it.
+pub type Look<'a> = &'a dyn Fn(&MeshFile, &[u8]);
 
 /// The same with a file on the disk, whose references are followed.
 ///
 /// # Panics
 ///
 /// Where something that was promised does not hold.
-pub fn on_disk(path: &Path, folder: &Path) -> Outcome {
+pub fn on_disk(path: &Path, folder: &Path, look: Look<'_>) -> Outcome {
     match open(path) {
-        Ok(file) => opened(&file, folder),
+        Ok(file) => opened(&file, folder, look),
         Err(error) => refused(&error.to_string()),
     }
 }
@@ -48,16 +51,16 @@ fn refused(message: &str) -> Outcome {
     Outcome::Refused(message.to_owned())
 }
 
-fn opened(file: &MeshFile, folder: &Path) -> Outcome {
+fn opened(file: &MeshFile, folder: &Path, look: Look<'_>) -> Outcome {
     is_sound(file);
     let points = file.points();
-    saves(file, &points, None, folder);
+    saves(file, &points, None, folder, look);
     let mut moved = points.clone();
     if let Some(point) = moved.first_mut() {
         *point += DVec3::new(0.5, -0.25, 0.125);
     }
     let rigidity: Vec<u16> = (0..points.len()).map(|point| 1 + (point % 7) as u16).collect();
-    saves(file, &moved, Some(&rigidity), folder);
+    saves(file, &moved, Some(&rigidity), folder, look);
     let poses = Poses::of_reference(file, PoseOptions { frames: 3, ..PoseOptions::default() });
     for found in poses.into_iter().flatten().take(MAX_POSES) {
         if let Ok(Found::Pose(pose)) = found {
@@ -92,7 +95,7 @@ fn is_sound(file: &MeshFile) {
 }
 
 /// Saves in the file's own format; what was saved opens with as many vertices and faces.
-fn saves(file: &MeshFile, points: &[DVec3], rigidity: Option<&[u16]>, folder: &Path) {
+fn saves(file: &MeshFile, points: &[DVec3], rigidity: Option<&[u16]>, folder: &Path, look: Look<'_>) {
     let path = folder.join("saved").with_extension(file.format.extension());
     match file.save(&path, points, rigidity) {
         Err(error) => drop(refused(&error.to_string())),
@@ -100,6 +103,7 @@ fn saves(file: &MeshFile, points: &[DVec3], rigidity: Option<&[u16]>, folder: &P
             let again = open(&path).unwrap_or_else(|error| panic!("what was saved does not open: {error}"));
             assert_eq!(again.positions.len(), file.positions.len(), "vertices of what was saved");
             assert_eq!(again.triangles.len(), file.triangles.len(), "triangles of what was saved");
+            look(file, &std::fs::read(&path).expect("what was saved"));
         }
     }
     for left in std::fs::read_dir(folder).into_iter().flatten().flatten() {

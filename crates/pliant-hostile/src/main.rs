@@ -39,6 +39,21 @@ enum Task {
         /// The folder
         folder: PathBuf,
     },
+    /// Look through strace at what is opened while files name others outside their folder
+    #[cfg(target_os = "linux")]
+    Trace,
+    /// Kill savings through strace at every call to the system, and have every call fail
+    #[cfg(target_os = "linux")]
+    Crash,
+    /// One saving, for `crash`
+    #[cfg(target_os = "linux")]
+    #[command(hide = true)]
+    Save {
+        /// Which
+        index: usize,
+        /// Its files
+        folder: PathBuf,
+    },
     /// What the other tasks start
     #[command(hide = true)]
     Worker {
@@ -73,11 +88,21 @@ fn perform(task: Task) -> Result<bool, Failure> {
             work(batch(&name)?, from, to)?;
             Ok(true)
         }
+        #[cfg(target_os = "linux")]
+        Task::Trace => trace(),
+        #[cfg(target_os = "linux")]
+        Task::Crash => crash(),
+        #[cfg(target_os = "linux")]
+        Task::Save { index, folder } => {
+            pliant_hostile::interrupted::save(index, &folder)?;
+            Ok(true)
+        }
         Task::Show { batch: name, index, output } => {
-            let (what, extension, bytes) = batch(&name)?.files().get(index);
+            let files = batch(&name)?.files()?;
+            let (extension, bytes) = files.content(index).ok_or("it means something in its folder only")?;
             let output = output.with_extension(extension);
             std::fs::write(&output, bytes)?;
-            eprintln!("{}: {what}", output.display());
+            eprintln!("{}: {}", output.display(), files.name(index));
             Ok(true)
         }
         Task::Seeds { folder } => {
@@ -116,4 +141,22 @@ fn show(what: &str, report: &Report) {
         largest.0 / 1024,
         largest.1
     );
+}
+
+#[cfg(target_os = "linux")]
+fn trace() -> Result<bool, Failure> {
+    let seen = pliant_hostile::trace::run(&std::env::current_exe()?)?;
+    seen.foreign.iter().for_each(|call| eprintln!("outside: {call}"));
+    let foreign = seen.foreign.len();
+    eprintln!("{} files with references, {} calls, {foreign} of them outside", seen.tried, seen.calls);
+    Ok(foreign == 0)
+}
+
+#[cfg(target_os = "linux")]
+fn crash() -> Result<bool, Failure> {
+    let report = pliant_hostile::interrupted::run(&std::env::current_exe()?)?;
+    report.troubles.iter().for_each(|trouble| eprintln!("{trouble}"));
+    let troubles = report.troubles.len();
+    eprintln!("{} savings killed, {} with a failed call, {troubles} in trouble", report.kills, report.failures);
+    Ok(troubles == 0)
 }

@@ -33,3 +33,11 @@ fn damaged_files_open_or_are_refused_within_limits() {
     let share = report.opened as f64 / N_DAMAGED as f64;
     assert!((0.1..0.9).contains(&share), "{share} of the damaged files opened");
 }
+
+#[test]
+#[cfg(target_os = "linux")]
+fn nothing_outside_the_folder_of_a_file_is_read() {
+    let n = pliant_hostile::references::Traps::new().expect("a folder with traps").n();
+    assert!(n >= 60, "{n} references");
+    tried(Batch::References, n as u64);
+}

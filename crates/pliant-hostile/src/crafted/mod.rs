@@ -12,6 +12,9 @@ mod gltf_places;
 mod model;
 mod obj;
 mod obj_large;
+mod off;
+mod ply;
+mod stl;
 
 pub use model::{glb_of, gltf_of, sound_document};
 
@@ -92,7 +95,17 @@ pub fn all() -> Vec<Case> {
 }
 
 fn small() -> Vec<Case> {
-    [obj::cases(), gltf::cases(), gltf_places::cases(), gltf_moving::cases(), glb::cases()].concat()
+    [
+        obj::cases(),
+        gltf::cases(),
+        gltf_places::cases(),
+        gltf_moving::cases(),
+        glb::cases(),
+        ply::cases(),
+        stl::cases(),
+        off::cases(),
+    ]
+    .concat()
 }
 
 /// The sound ones that are small, from which damaged files are made.

@@ -66,7 +66,7 @@ fn take_turns(
     next: &AtomicU64,
     report: &Mutex<Report>,
 ) -> std::io::Result<()> {
-    let files = batch.files();
+    let files = batch.files()?;
     loop {
         let from = next.fetch_add(PER_WORKER, Ordering::Relaxed);
         if from >= n || until.is_some_and(|until| Instant::now() > until) {
@@ -76,10 +76,10 @@ fn take_turns(
         while at < to {
             let mut tally = Report::default();
             at = one_worker(program, batch, at, to, &mut |index, outcome, cost| {
-                tally.count(index, outcome, cost, files.complaint(index, outcome), || files.get(index).0);
+                tally.count(index, outcome, cost, files.complaint(index, outcome), || files.name(index));
             })?
             .map_or(to, |(index, what)| {
-                tally.troubles.push(Trouble { index, name: files.get(index).0, what });
+                tally.troubles.push(Trouble { index, name: files.name(index), what });
                 index + 1
             });
             report.lock().unwrap_or_else(PoisonError::into_inner).add(tally);
