@@ -39,9 +39,13 @@ pub fn traced(options: &[&str], program: &Path, arguments: &[&str]) -> Result<(O
 
 /// The names of files in a line of a trace: what was asked for in quotes, and what an opened number stands for in angles.
 pub fn names(call: &str) -> Vec<String> {
+    // The folder that relative names begin in; there are none.
+    let parts = call.split("AT_FDCWD<").enumerate();
+    let call: String =
+        parts.map(|(i, part)| if i == 0 { part } else { part.split_once('>').map_or("", |p| p.1) }).collect();
     let mut names = Vec::new();
     for (open, close) in [('"', '"'), ('<', '>')] {
-        let mut rest = call;
+        let mut rest = call.as_str();
         while let Some((_, after)) = rest.split_once(open) {
             let Some((name, after)) = after.split_once(close) else { break };
             names.push(name.to_owned());
