@@ -7,6 +7,9 @@ use std::sync::Mutex;
 /// Told the fraction that is done; answers whether to go on.
 pub(crate) type Tell<'a> = dyn Fn(f64) -> ControlFlow<()> + Sync + 'a;
 
+/// Vertices or faces of a text that are read in a few milliseconds, at some 200 ns each.
+pub(crate) const PIECE: usize = 1 << 14;
+
 /// A share of the work of opening, whose own progress goes from 0 to 1.
 #[derive(Clone, Copy)]
 pub(crate) struct Stage<'a> {

@@ -210,11 +210,12 @@ fn what_a_format_cannot_hold_is_told() {
     let expected = format!("polygons of more than three corners, colors of vertices, {numbering}");
     assert_eq!(said(&polygons, "out.stl"), expected);
     let rich = obj(OBJ);
-    let expected = "textures and material settings beyond the base color, names and borders of parts, materials";
+    let expected =
+        "textures and material settings beyond the base color, lines and points, names and borders of parts, materials";
     assert_eq!(said(&rich, "out.ply"), expected);
     let expected = format!(
-        "textures and material settings beyond the base color, polygons of more than three corners, names and borders \
-         of parts, materials, texture coordinates, normals of vertices, {numbering}"
+        "textures and material settings beyond the base color, lines and points, polygons of more than three corners, \
+         names and borders of parts, materials, texture coordinates, normals of vertices, {numbering}"
     );
     assert_eq!(said(&rich, "out.stl"), expected);
 }

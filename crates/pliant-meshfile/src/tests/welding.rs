@@ -147,3 +147,29 @@ fn progress_ascends_to_one_and_may_stop_the_opening() {
         assert!(error.is_canceled() && n_told == stop_at + 1, "stop {stop_at}: {error}, told {n_told} times");
     }
 }
+
+#[test]
+fn opening_any_text_or_table_tells_how_far_it_is_and_stops_when_asked() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let n = 30_000;
+    let vertices: Vec<DVec3> = (0..n).map(|i| DVec3::new(f64::from(i), f64::from(i % 7), 0.0)).collect();
+    let triangles = (0..n as u32 - 2).map(|i| [i, i + 1, i + 2]).collect();
+    let start = MeshFile::from_triangles("strip", vertices, triangles);
+    for name in ["strip.ply", "strip.stl", "strip.off"] {
+        let path = folder.path().join(name);
+        start.save(&path, &start.points(), None).expect("saved");
+        let mut told = Vec::new();
+        let opened = OpenOptions::default().open_with_progress(&path, &mut |fraction| {
+            told.push(fraction);
+            ControlFlow::Continue(())
+        });
+        opened.unwrap_or_else(|error| panic!("{name}: {error}"));
+        assert!(told.is_sorted() && told.last() == Some(&1.0), "{name}: {told:?}");
+        // Reading the content is what lies between these.
+        let inside = told.iter().filter(|fraction| (0.15..0.75).contains(*fraction)).count();
+        assert!(inside >= 1, "{name}: {told:?}");
+        let stop = |fraction: f64| if fraction > 0.15 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+        let error = OpenOptions::default().open_with_progress(&path, &mut { stop }).expect_err("stopped");
+        assert!(error.is_canceled(), "{name}: {error}");
+    }
+}

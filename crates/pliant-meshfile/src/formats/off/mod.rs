@@ -34,7 +34,7 @@ struct OffSource {
 
 /// Reads an OFF file.
 pub(super) fn read(input: Input<'_>) -> Result<Opened, Fault> {
-    let parsed = read::parse(&input.bytes)?;
+    let parsed = read::parse(&input.bytes, input.stage)?;
     let name = budget::short_name(input.name.to_owned());
     let part = Part { name: name.clone(), triangles: 0..parsed.cut.triangles.len(), base_color: NO_MATERIAL };
     Ok(Opened {

@@ -3,6 +3,7 @@
 use super::header::Header;
 use crate::formats::faces::{self, Cut, Faces};
 use crate::formats::words::{Word, Words};
+use crate::watch::{PIECE, Stage};
 use crate::{Fault, Warning, budget};
 use glam::{DVec3, Vec2, Vec3};
 
@@ -24,11 +25,14 @@ const MOST: usize = 3 + 3 + 4 + 2;
 
 /// Reads a vertex or face a line, as programs write them and as colors need it; where that fails, numbers on whatever
 /// lines, which the format allows too.
-pub(super) fn parse(bytes: &[u8]) -> Result<Parsed, Fault> {
-    parse_as(bytes, false).or_else(|fault| parse_as(bytes, true).map_err(|_| fault))
+pub(super) fn parse(bytes: &[u8], stage: Stage<'_>) -> Result<Parsed, Fault> {
+    parse_as(bytes, false, stage).or_else(|fault| match fault {
+        Fault::Canceled => Err(fault),
+        _ => parse_as(bytes, true, stage).map_err(|_| fault),
+    })
 }
 
-fn parse_as(bytes: &[u8], free: bool) -> Result<Parsed, Fault> {
+fn parse_as(bytes: &[u8], free: bool, stage: Stage<'_>) -> Result<Parsed, Fault> {
     let header = Header::parse(bytes, free)?;
     if free && header.has.colors {
         return Err(Fault::Empty);
@@ -48,8 +52,8 @@ fn parse_as(bytes: &[u8], free: bool) -> Result<Parsed, Fault> {
     };
     out.positions.reserve_exact(out.header.n_vertices as usize);
     let mut words = Words::new(bytes, out.header.body, true);
-    out.vertices(&mut words)?;
-    out.faces(&mut words)?;
+    out.vertices(&mut words, stage)?;
+    out.faces(&mut words, stage)?;
     Ok(out)
 }
 
@@ -70,10 +74,13 @@ pub(super) fn vertex_words<'a>(words: &mut Words<'a>, header: &Header, out: &mut
 }
 
 impl Parsed {
-    fn vertices(&mut self, words: &mut Words<'_>) -> Result<(), Fault> {
+    fn vertices(&mut self, words: &mut Words<'_>, stage: Stage<'_>) -> Result<(), Fault> {
         let mut colors = Colors::default();
         let (mut row, mut undeclared) = (Vec::new(), false);
         for vertex in 0..self.header.n_vertices {
+            if vertex.is_multiple_of(PIECE as u64) {
+                stage.tell(words.at, words.bytes.len())?;
+            }
             let read = vertex_words(words, &self.header, &mut row).and_then(|()| self.vertex(&row, &mut colors));
             let place = || format!("{}, vertex {vertex}", words.line(words.at));
             undeclared |= read.map_err(|problem| Fault::at(place(), problem))?;
@@ -107,10 +114,13 @@ impl Parsed {
         Ok(!more.is_empty())
     }
 
-    fn faces(&mut self, words: &mut Words<'_>) -> Result<(), Fault> {
+    fn faces(&mut self, words: &mut Words<'_>, stage: Stage<'_>) -> Result<(), Fault> {
         let mut faces = Faces::new(self.positions.len());
         let mut corners = Vec::new();
         for face in 0..self.header.n_faces {
+            if face.is_multiple_of(PIECE as u64) {
+                stage.tell(words.at, words.bytes.len())?;
+            }
             // What follows the corners on a line is a color.
             let mut read = || -> Result<(), String> {
                 face_corners(words, &mut corners)?;

@@ -4,6 +4,7 @@ use super::header::{Element, Encoding, Kind};
 use super::scalar::Scalar;
 use crate::Fault;
 use crate::formats::words::{Word, Words};
+use crate::watch::{PIECE, Stage};
 use std::ops::Range;
 
 /// A walk over the body of a file.
@@ -11,11 +12,22 @@ pub(super) struct Body<'a> {
     /// The text, or merely its bytes and the place in them.
     words: Words<'a>,
     encoding: Encoding,
+    stage: Stage<'a>,
 }
 
 impl<'a> Body<'a> {
     pub(super) fn new(bytes: &'a [u8], at: usize, encoding: Encoding) -> Body<'a> {
-        Body { words: Words::new(bytes, at, false), encoding }
+        Body { words: Words::new(bytes, at, false), encoding, stage: Stage::unwatched() }
+    }
+
+    /// The same walk, told to someone.
+    pub(super) fn watched(self, stage: Stage<'a>) -> Body<'a> {
+        Body { stage, ..self }
+    }
+
+    /// Tells every few milliseconds how far the walk is, when it is at the element `index`.
+    pub(super) fn tell(&self, index: u64) -> Result<(), Fault> {
+        if index.is_multiple_of(PIECE as u64) { self.stage.tell(self.words.at, self.words.bytes.len()) } else { Ok(()) }
     }
 
     /// Where the next number begins or blanks before it.
@@ -153,6 +165,7 @@ impl<'a> Body<'a> {
         }
         // Without properties there is nothing to pass, however many there are said to be.
         for index in 0..if element.properties.is_empty() { 0 } else { element.count } {
+            self.tell(index)?;
             let passed = self
                 .begin()
                 .and_then(|()| element.properties.iter().try_for_each(|property| self.skip(property.kind).map(drop)));

@@ -40,7 +40,7 @@ struct PlySource {
 
 /// Reads a PLY file.
 pub(super) fn read(input: Input<'_>) -> Result<Opened, Fault> {
-    let parsed = read::parse(&input.bytes)?;
+    let parsed = read::parse(&input.bytes, input.stage)?;
     let mut warnings = parsed.warnings;
     warnings.extend(parsed.cut.warnings);
     let name = crate::budget::short_name(input.name.to_owned());

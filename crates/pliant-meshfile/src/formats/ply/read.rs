@@ -5,6 +5,7 @@ use super::header::{Element, Header, Kind};
 use super::roles::{COLOR, N_ROLES, NORMAL, POSITION, R, RIGIDITY, Roles, UV};
 use super::scalar::Scalar;
 use crate::formats::faces::{self, Cut, Faces};
+use crate::watch::Stage;
 use crate::{Fault, Warning, budget, rigidity};
 use glam::{DVec3, Vec2, Vec3};
 
@@ -34,7 +35,7 @@ pub(super) struct Vertices {
     rigidity: Vec<f64>,
 }
 
-pub(super) fn parse(bytes: &[u8]) -> Result<Parsed, Fault> {
+pub(super) fn parse(bytes: &[u8], stage: Stage<'_>) -> Result<Parsed, Fault> {
     let mut header = Header::parse(bytes)?;
     let vertex = header.element("vertex").ok_or_else(|| Fault::Container("declares no element vertex".into()))?;
     let roles = Roles::of(&header.elements[vertex]);
@@ -43,7 +44,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Parsed, Fault> {
     }
     let n_vertices = header.elements[vertex].count;
     budget::check("vertices", n_vertices, budget::VERTICES)?;
-    let mut body = Body::new(bytes, header.body, header.encoding);
+    let mut body = Body::new(bytes, header.body, header.encoding).watched(stage);
     let (mut vertices, mut vertex_at) = (Vertices::default(), header.body);
     let mut faces = Faces::new(n_vertices as usize);
     for (i, element) in header.elements.iter().enumerate() {
@@ -85,6 +86,7 @@ impl Vertices {
         let mut row = [0.0; N_ROLES];
         row[COLOR + 3] = full[3];
         for index in 0..element.count {
+            body.tell(index)?;
             read_row(body, element, roles, &mut row).map_err(|problem| body.fault(element, index, &problem))?;
             let position = DVec3::new(row[POSITION], row[POSITION + 1], row[POSITION + 2]);
             if !position.is_finite() {
@@ -158,6 +160,7 @@ fn read_faces(
     budget::check("faces", element.count, budget::TRIANGLES)?;
     let limit = if strips { budget::TRIANGLES } else { budget::POLYGON_CORNERS };
     for index in 0..element.count {
+        body.tell(index)?;
         let mut read = || -> Result<(), String> {
             body.begin()?;
             for (i, property) in element.properties.iter().enumerate() {

@@ -3,6 +3,7 @@
 use super::{Parsed, check_count, turned_normal};
 use crate::formats::Edit;
 use crate::formats::words::{Word, Words, shortest, shortest_single};
+use crate::watch::{PIECE, Stage};
 use crate::{Fault, budget};
 use glam::{DVec3, Vec3};
 
@@ -101,7 +102,7 @@ impl<'a> Walk<'a> {
     }
 }
 
-pub(super) fn parse(bytes: &[u8], name: &str) -> Result<Parsed, Fault> {
+pub(super) fn parse(bytes: &[u8], name: &str, stage: Stage<'_>) -> Result<Parsed, Fault> {
     let (mut walk, mut out) = (Walk::new(bytes), Parsed::default());
     let mut names = budget::Purse::of_names();
     let mut current = budget::short_name(name.to_owned());
@@ -114,6 +115,9 @@ pub(super) fn parse(bytes: &[u8], name: &str) -> Result<Parsed, Fault> {
         }
         let t = out.positions.len() / 3;
         check_count(t as u64 + 1)?;
+        if t.is_multiple_of(PIECE) {
+            stage.tell(walk.words.at, bytes.len())?;
+        }
         let mut numbers = [0.0; 9];
         for (number, word) in numbers.iter_mut().zip(&walk.numbers[3..]) {
             *number = word

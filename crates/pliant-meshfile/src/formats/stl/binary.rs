@@ -3,6 +3,7 @@
 use super::{Parsed, check_count, turned_normal};
 use crate::formats::Edit;
 use crate::shape::NO_MATERIAL;
+use crate::watch::{PIECE, Stage};
 use crate::{Fault, SaveError, Warning, budget};
 use glam::{DVec3, Vec3};
 use std::path::Path;
@@ -31,13 +32,16 @@ fn triple(bytes: &[u8], at: usize) -> Vec3 {
 }
 
 /// Reads bytes that [`size`] is not more than.
-pub(super) fn parse(bytes: &[u8], name: &str) -> Result<Parsed, Fault> {
+pub(super) fn parse(bytes: &[u8], name: &str, stage: Stage<'_>) -> Result<Parsed, Fault> {
     let end = size(bytes).unwrap_or(0).min(bytes.len() as u64) as usize;
     let n = end.saturating_sub(HEADER) / TRIANGLE;
     check_count(n as u64)?;
     let mut out = Parsed::default();
     out.positions.reserve_exact(3 * n);
     for (t, triangle) in bytes[HEADER.min(end)..end].chunks_exact(TRIANGLE).enumerate() {
+        if t.is_multiple_of(PIECE) {
+            stage.tell(t, n)?;
+        }
         for k in 0..3 {
             let corner: DVec3 = triple(triangle, 12 + 12 * k).into();
             if !corner.is_finite() {

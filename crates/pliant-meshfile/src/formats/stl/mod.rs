@@ -43,8 +43,8 @@ struct Parsed {
 /// Reads an STL file.
 pub(super) fn read(input: Input<'_>) -> Result<Opened, Fault> {
     let is_text = is_text(&input.bytes)?;
-    let parsed =
-        if is_text { ascii::parse(&input.bytes, input.name)? } else { binary::parse(&input.bytes, input.name)? };
+    let parse = if is_text { ascii::parse } else { binary::parse };
+    let parsed = parse(&input.bytes, input.name, input.stage)?;
     let n = parsed.positions.len() as u32 / 3;
     let base_color = if is_text { NO_MATERIAL } else { parsed.base_color };
     let part = |(name, triangles)| Part { name, triangles, base_color };
