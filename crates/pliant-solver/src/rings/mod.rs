@@ -145,7 +145,7 @@ mod tests {
             assert_eq!(rings.neighborhoods.runs(k), fresh.neighborhoods.runs(k), "{what}, vertex {k}");
         }
         assert_eq!(rings.neighborhoods.has_runs(), fresh.neighborhoods.has_runs(), "{what}");
-        assert!(rings.transpose.contents() == fresh.transpose.contents(), "{what}");
+        assert!(rings.transpose == fresh.transpose, "{what}");
         assert_eq!((&rings.counts, rings.total_count), (&fresh.counts, fresh.total_count), "{what}");
         assert_eq!(rings.stiffness, fresh.stiffness, "{what}");
         assert_eq!(rings.total_stiffness, fresh.total_stiffness, "{what}");
