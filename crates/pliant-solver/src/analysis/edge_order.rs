@@ -59,15 +59,13 @@ pub(crate) fn edge_order(mesh: &Mesh, sides: &[[u32; 3]], curve: &Curve) -> Vec<
 
 /// Faces by component, then along the curve, then by number.
 fn ranked_faces(mesh: &Mesh, curve: &Curve) -> Vec<u32> {
-    let mut keyed: Vec<(u32, u64, u32)> = mesh
-        .triangles()
-        .par_iter()
-        .enumerate()
-        .map(|(face, corners)| {
-            let [a, b, c] = corners.map(|v| mesh.positions()[v as usize] / 3.0);
-            (mesh.components()[corners[0] as usize], curve.position(a + b + c), face as u32)
-        })
-        .collect();
+    let along = curve.positions(mesh.triangles().len(), |face| {
+        let [a, b, c] = mesh.triangles()[face].map(|v| mesh.positions()[v as usize] / 3.0);
+        a + b + c
+    });
+    let component = |face: u32| mesh.components()[mesh.triangles()[face as usize][0] as usize];
+    let mut keyed: Vec<(u32, u64, u32)> =
+        (0u32..).zip(along).map(|(face, along)| (component(face), along, face)).collect();
     keyed.par_sort_unstable();
     keyed.into_iter().map(|key| key.2).collect()
 }

@@ -6,9 +6,15 @@
 //! coordinates (Skilling's observation), after which the Gray code of the interleaved bits is the position.
 
 use glam::DVec3;
+use rayon::prelude::*;
 
 /// Bits per axis: three times 21 fit a 64-bit key.
 const BITS: u32 = 21;
+/// Points treated side by side. One alone waits for one bit after the other: 27 ns a point instead of 205, and of 284 with branches,
+/// half of which are mispredicted.
+const LANES: usize = 16;
+/// Lanes that one thread takes at least: some hundred microseconds.
+const GRAIN: usize = 256;
 
 /// A cube with a curve through it.
 pub(crate) struct Curve {
@@ -28,41 +34,68 @@ impl Curve {
         Curve { corner: lo, cells_per_unit }
     }
 
-    /// How far along the curve the cell of `p` lies.
-    pub(crate) fn position(&self, p: DVec3) -> u64 {
+    /// How far along the curve the cells of `n` points lie.
+    pub(crate) fn positions(&self, n: usize, point: impl Fn(usize) -> DVec3 + Sync) -> Vec<u64> {
+        let mut positions = vec![0; n];
+        positions.par_chunks_mut(LANES).with_min_len(GRAIN).enumerate().for_each(|(chunk, out)| {
+            let mut cells = [[0; LANES]; 3];
+            for lane in 0..out.len() {
+                let cell = self.cell(point(chunk * LANES + lane));
+                (0..3).for_each(|axis| cells[axis][lane] = cell[axis]);
+            }
+            out.copy_from_slice(&positions_of_cells(cells)[..out.len()]);
+        });
+        positions
+    }
+
+    fn cell(&self, p: DVec3) -> [u32; 3] {
         let q = (p - self.corner) * self.cells_per_unit;
         // Casting saturates: a point outside, or 0 times infinity, gets the nearest end of the cube.
-        position_of_cell([q.x as u32, q.y as u32, q.z as u32].map(|x| x.min((1 << BITS) - 1)))
+        [q.x as u32, q.y as u32, q.z as u32].map(|x| x.min((1 << BITS) - 1))
     }
 }
 
-fn position_of_cell(mut x: [u32; 3]) -> u64 {
-    let mut bit = 1 << (BITS - 1);
-    while bit > 1 {
-        let below = bit - 1;
+fn positions_of_cells(mut x: [[u32; LANES]; 3]) -> [u64; LANES] {
+    for level in (1..BITS).rev() {
+        let below = (1 << level) - 1;
         for axis in 0..3 {
-            if x[axis] & bit != 0 {
-                x[0] ^= below;
-            } else {
-                let swap = (x[0] ^ x[axis]) & below;
-                x[0] ^= swap;
-                x[axis] ^= swap;
+            for lane in 0..LANES {
+                let mirrored = all_ones_if(x[axis][lane], level);
+                let swap = (x[0][lane] ^ x[axis][lane]) & below & !mirrored;
+                x[0][lane] ^= swap | (below & mirrored);
+                x[axis][lane] ^= swap;
             }
         }
-        bit >>= 1;
     }
-    x[1] ^= x[0];
-    x[2] ^= x[1];
-    let mut parity = 0;
-    let mut bit = 1 << (BITS - 1);
-    while bit > 1 {
-        if x[2] & bit != 0 {
-            parity ^= bit - 1;
+    let mut parity = [0; LANES];
+    for lane in 0..LANES {
+        x[1][lane] ^= x[0][lane];
+        x[2][lane] ^= x[1][lane];
+    }
+    for level in 1..BITS {
+        for lane in 0..LANES {
+            parity[lane] ^= all_ones_if(x[2][lane], level) & ((1 << level) - 1);
         }
-        bit >>= 1;
     }
-    let x = x.map(|axis| axis ^ parity);
-    (0..BITS).rev().fold(0, |key, level| x.iter().fold(key, |key, axis| key << 1 | u64::from(axis >> level & 1)))
+    std::array::from_fn(|lane| {
+        let [a, b, c] = x.map(|axis| spread(axis[lane] ^ parity[lane]));
+        a << 2 | b << 1 | c
+    })
+}
+
+/// Whether a bit is set, as a mask.
+fn all_ones_if(x: u32, bit: u32) -> u32 {
+    (x >> bit & 1).wrapping_neg()
+}
+
+/// Bit i of 21 comes to bit 3 i: the upper half of ever smaller groups moves up by twice its size.
+fn spread(x: u32) -> u64 {
+    let mut x = u64::from(x);
+    x = (x | x << 32) & 0x001f_0000_0000_ffff;
+    x = (x | x << 16) & 0x001f_0000_ff00_00ff;
+    x = (x | x << 8) & 0x100f_00f0_0f00_f00f;
+    x = (x | x << 4) & 0x10c3_0c30_c30c_30c3;
+    (x | x << 2) & 0x1249_2492_4924_9249
 }
 
 #[cfg(test)]
@@ -72,17 +105,29 @@ mod tests {
     #[test]
     fn consecutive_cells_of_the_curve_touch() {
         // The 8³ cells at the corner of the grid are a Hilbert curve of their own.
-        let mut cells: Vec<[u32; 3]> = (0..512).map(|c| [c & 7, c >> 3 & 7, c >> 6]).collect();
-        cells.sort_by_key(|&cell| position_of_cell(cell));
-        for pair in cells.windows(2) {
-            let steps: u32 = (0..3).map(|a| pair[0][a].abs_diff(pair[1][a])).sum();
-            assert_eq!(steps, 1, "{pair:?}");
+        let curve = Curve { corner: DVec3::ZERO, cells_per_unit: 1.0 };
+        let center = |c: usize| DVec3::new((c & 7) as f64, (c >> 3 & 7) as f64, (c >> 6) as f64) + 0.5;
+        let positions = curve.positions(512, center);
+        let mut cells: Vec<usize> = (0..512).collect();
+        cells.sort_by_key(|&cell| positions[cell]);
+        for (place, pair) in cells.windows(2).enumerate() {
+            assert_eq!(positions[pair[0]], place as u64, "cell {}", pair[0]);
+            let step = (center(pair[0]) - center(pair[1])).abs();
+            assert_eq!(step.x + step.y + step.z, 1.0, "{pair:?}");
         }
+    }
+
+    #[test]
+    fn spread_bits_leave_room_for_two_more() {
+        for bit in 0..BITS {
+            assert_eq!(spread(1 << bit), 1 << (3 * bit), "bit {bit}");
+        }
+        assert_eq!(spread((1 << BITS) - 1).count_ones(), BITS);
     }
 
     #[test]
     fn one_place_for_all_points_is_no_trouble() {
         let p = DVec3::new(3.0, 4.0, 5.0);
-        assert_eq!(Curve::around(&[p, p]).position(p), 0);
+        assert_eq!(Curve::around(&[p, p]).positions(1, |_| p), [0]);
     }
 }

@@ -20,7 +20,7 @@ use crate::analysis::hilbert::Curve;
 use crate::analysis::stars::Stars;
 use crate::analysis::topology::sides_of_faces;
 use crate::analysis::weights::edge_weights;
-use crate::linear::Pattern;
+use crate::linear::{Ordered, Pattern};
 use crate::{Mesh, Weights};
 
 /// Edges per block of prefix sums. Short enough that a difference of two sums within a block keeps twelve digits of a
@@ -79,15 +79,23 @@ impl Analysis {
         let curve = Curve::around(mesh.positions());
         let numbering = Numbering::new(&mesh, &curve);
         let ends: Vec<[u32; 2]> = mesh.edges().iter().map(|&edge| numbering.ends(edge)).collect();
-        let ((pattern, slots), (order, mesh_weights)) = rayon::join(
-            || Pattern::new(&numbering.rest, &ends),
+        let ((ordered, slots), (sides, order)) = rayon::join(
+            || Ordered::new(&numbering.rest, &ends),
             || {
                 let sides = sides_of_faces(&mesh);
-                (edge_order(&mesh, &sides, &curve), edge_weights(&mesh, &sides, weights))
+                let order = edge_order(&mesh, &sides, &curve);
+                (sides, order)
             },
         );
-        let layout = Layout::new(numbering, &order, (&ends, &mesh_weights));
-        let slots = order.iter().map(|&e| slots[e as usize]).collect();
+        // The symbolic factorization is the longest of what has no parallel parts of its own.
+        let (pattern, (layout, slots)) = rayon::join(
+            || ordered.analyzed(),
+            || {
+                let mesh_weights = edge_weights(&mesh, &sides, weights);
+                let layout = Layout::new(numbering, &order, (&ends, &mesh_weights));
+                (layout, order.iter().map(|&e| slots[e as usize]).collect())
+            },
+        );
         Analysis { mesh, weights, layout, pattern: Arc::new(pattern), slots }
     }
 
@@ -112,9 +120,9 @@ struct Numbering {
 
 impl Numbering {
     fn new(mesh: &Mesh, curve: &Curve) -> Numbering {
-        let keys = mesh.positions().par_iter().zip(mesh.components()).zip(0u32..mesh.n_vertices() as u32);
+        let along = curve.positions(mesh.n_vertices(), |v| mesh.positions()[v]);
         let mut keyed: Vec<(u32, u64, u32)> =
-            keys.map(|((&p, &component), v)| (component, curve.position(p), v)).collect();
+            (0u32..).zip(mesh.components()).zip(along).map(|((v, &component), along)| (component, along, v)).collect();
         keyed.par_sort_unstable();
         let to_caller: Vec<u32> = keyed.into_iter().map(|key| key.2).collect();
         let mut to_internal = vec![0u32; to_caller.len()];

@@ -57,13 +57,15 @@ mod tests {
 
     use super::*;
     use crate::kernels::quad::Quad;
+    use crate::linear::Ordered;
 
     #[test]
     fn both_solve_the_same() {
         let n = 300;
         let edges: Vec<[u32; 2]> = (1..n as u32).map(|i| [i / 3, i]).collect();
         let points: Vec<glam::DVec3> = (0..n).map(|i| glam::DVec3::new(i as f64, (i % 5) as f64, 0.0)).collect();
-        let (pattern, slots) = Pattern::new(&points, &edges);
+        let (ordered, slots) = Ordered::new(&points, &edges);
+        let pattern = ordered.analyzed();
         let mut values = vec![0.0; pattern.n_values()];
         (0..n).for_each(|i| values[pattern.diagonal(i)] = 5.0);
         slots.iter().for_each(|&slot| values[slot as usize] = -1.0);

@@ -29,5 +29,5 @@ mod system;
 
 #[cfg(feature = "measure")]
 pub(crate) use beside::ByFaer;
-pub(crate) use pattern::Pattern;
+pub(crate) use pattern::{Ordered, Pattern};
 pub(crate) use system::{FactorError, System};

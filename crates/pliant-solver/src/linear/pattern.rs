@@ -18,10 +18,20 @@ pub(crate) struct Pattern {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct OutOfRange;
 
-impl Pattern {
-    /// `edges`: unordered pairs (lower, upper) of rows, which are `points` in space. Returns the pattern and the place of
-    /// each edge's value in it; row `i` keeps its diagonal at [`Pattern::diagonal`].
-    pub(crate) fn new(points: &[DVec3], edges: &[[u32; 2]]) -> (Pattern, Vec<u32>) {
+/// A pattern in an order that is not analyzed yet.
+pub(crate) struct Ordered {
+    columns: Vec<u32>,
+    rows: Vec<u32>,
+    /// The neighbors of every row.
+    offsets: Vec<u32>,
+    neighbors: Vec<u32>,
+    order: Vec<u32>,
+}
+
+impl Ordered {
+    /// `edges`: unordered pairs (lower, upper) of rows, which are `points` in space. Returns also the place of each
+    /// edge's value in the pattern; row `i` keeps its diagonal at [`Pattern::diagonal`].
+    pub(crate) fn new(points: &[DVec3], edges: &[[u32; 2]]) -> (Ordered, Vec<u32>) {
         let n = points.len();
         let mut columns = vec![1u32; n + 1];
         columns[0] = 0;
@@ -49,12 +59,20 @@ impl Pattern {
         }
         let (offsets, neighbors) = graph(&columns, &rows);
         let order = nested_dissection(points, &offsets, &neighbors);
+        (Ordered { columns, rows, offsets, neighbors, order }, slots)
+    }
+
+    /// The symbolic factorization: one thread's work.
+    pub(crate) fn analyzed(self) -> Pattern {
+        let Ordered { columns, rows, offsets, neighbors, order } = self;
         let order = postordered(&order, &offsets, &neighbors);
         let plan =
             Supernodes::new(&columns, &rows, &order).map(|supernodes| Plan::new(order, &supernodes, (&columns, &rows)));
-        (Pattern { columns, rows, plan }, slots)
+        Pattern { columns, rows, plan }
     }
+}
 
+impl Pattern {
     /// Place of the diagonal value of a row.
     pub(crate) fn diagonal(&self, row: usize) -> usize {
         self.columns[row] as usize

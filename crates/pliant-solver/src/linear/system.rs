@@ -111,13 +111,15 @@ mod tests {
     use glam::DVec3;
 
     use super::*;
+    use crate::linear::Ordered;
     use crate::test_support::{Random, bumpy_sheet};
 
     /// A path 0 - 1 - … with unit weights, both ends fixed.
     fn path(n: usize, weight: f64) -> (System, Vec<f64>) {
         let edges: Vec<[u32; 2]> = (1..n as u32).map(|i| [i - 1, i]).collect();
         let points: Vec<DVec3> = (0..n).map(|i| DVec3::X * i as f64).collect();
-        let (pattern, slots) = Pattern::new(&points, &edges);
+        let (ordered, slots) = Ordered::new(&points, &edges);
+        let pattern = ordered.analyzed();
         let mut values = vec![0.0; pattern.n_values()];
         for i in 0..n {
             values[pattern.diagonal(i)] = if i == 0 || i + 1 == n { 1.0 } else { 2.0 * weight };
