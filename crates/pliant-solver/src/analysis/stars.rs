@@ -43,15 +43,16 @@ impl<'a> Flat<'a> {
     /// several steps, four in one.
     #[inline(always)]
     pub(crate) fn get<W: Wide>(self, wide: W, i: usize) -> W::Four {
-        wide.four(self.numbers(i))
+        // A register from either branch: joined number by number, the four would be loaded one by one.
+        match self.0.get(3 * i..3 * i + 4).and_then(|numbers| numbers.first_chunk()) {
+            Some(&numbers) => wide.four(numbers),
+            None => wide.four([self.0[3 * i], self.0[3 * i + 1], self.0[3 * i + 2], 0.0]),
+        }
     }
 
     #[inline(always)]
-    pub(crate) fn numbers(self, i: usize) -> [f64; 4] {
-        match self.0.get(3 * i..3 * i + 4) {
-            Some(&[x, y, z, next]) => [x, y, z, next],
-            _ => [self.0[3 * i], self.0[3 * i + 1], self.0[3 * i + 2], 0.0],
-        }
+    pub(crate) fn vector(self, i: usize) -> DVec3 {
+        DVec3::from_slice(&self.0[3 * i..3 * i + 3])
     }
 }
 

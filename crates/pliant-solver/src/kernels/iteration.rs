@@ -3,7 +3,6 @@
 use glam::{DMat3, DQuat, DVec3};
 
 use crate::analysis::Layout;
-use crate::analysis::stars::Flat;
 use crate::kernels::energy::{DIRECT_BELOW, Noise, component_frames, framed_terms, vertex_energies};
 use crate::kernels::nines::{Eight, Nine, Nines, NinesRef};
 use crate::kernels::parallel::{CHUNK, chunks, chunks_with};
@@ -130,7 +129,7 @@ impl Workspace {
     /// b − A p' into `rhs`, which is minus half the gradient of the energy; 0 at fixed vertices.
     pub(crate) fn gradient(&mut self, layout: &Layout, rings: &Rings, is_fixed: &[bool], pose: &Pose) {
         let Workspace { pulls, prefix, rhs, has_stars, .. } = self;
-        let now = Now { layout, positions: Flat::new(&pose.positions) };
+        let now = Now::new(layout, &pose.positions);
         let rotations = pose.rotations.as_slices();
         if prefix.is_empty() {
             vertex_pulls(is_fixed, StarPull { now, rotations }, rhs);
@@ -156,7 +155,7 @@ impl Workspace {
     pub(crate) fn local(&mut self, layout: &Layout, rings: &Rings, pose: &mut Pose, ties: Ties) -> LocalOutcome {
         let Workspace { prefix, slot_bounds, parts, partial, .. } = self;
         let Pose { positions, rotations, turns } = pose;
-        let now = Now { layout, positions: Flat::new(positions) };
+        let now = Now::new(layout, positions);
         let mut squares = 0.0;
         if !prefix.is_empty() {
             squares = prefix_sums((layout, &rings.stiffness), now, slot_bounds, prefix, partial);
@@ -200,7 +199,7 @@ impl Workspace {
     fn framed_energy(&mut self, layout: &Layout, rings: &Rings, pose: &Pose) -> (f64, f64) {
         let Workspace { prefix, slot_bounds, frames, terms, partial, .. } = self;
         component_frames(&layout.component, &pose.turns, frames);
-        let (now, frames) = (Now { layout, positions: Flat::new(&pose.positions) }, &frames[..]);
+        let (now, frames) = (Now::new(layout, &pose.positions), &frames[..]);
         // δ_e = Fᵀe' − e.
         let deviation = |e: usize| {
             let frame = frames[layout.component[layout.edges[e][0] as usize] as usize];
@@ -274,9 +273,10 @@ impl Kernel for Turn<'_> {
 
     #[inline(always)]
     fn run<W: Wide>(self, wide: W) -> Part {
-        let Turn { rings, now: Now { layout, positions }, prefix, ties, first, turns, eights, ninths } = self;
+        let Turn { rings, now, prefix, ties, first, turns, eights, ninths } = self;
+        let Now { layout, positions, .. } = now;
         let mut lot = Lot::new();
-        let (mut gain, mut squares, mut largest) = (0.0, wide.splat4(0.0), [0.0f64; 4]);
+        let (mut gain, mut squares, mut largest) = (0.0, wide.splat4(0.0), DVec3::ZERO);
         let out = eights.chunks_mut(LOT).zip(ninths.chunks_mut(LOT));
         for ((first, turns), out) in (first..).step_by(LOT).zip(turns.chunks_mut(LOT)).zip(out) {
             for (lane, &turn) in turns.iter().enumerate() {
@@ -290,16 +290,14 @@ impl Kernel for Turn<'_> {
                 lot.load(lane, Nine { eight: Eight(wide.array8(eight)), ninth }, turn);
                 // A vertex without edges adds no rounding to the energy, however far away it is.
                 if layout.offsets[k] != layout.offsets[k + 1] {
-                    let p = positions.numbers(k);
-                    largest = std::array::from_fn(|c| largest[c].max(p[c].abs()));
+                    // In this order what is not a number is passed over.
+                    largest = positions.vector(k).abs().max(largest);
                 }
             }
             gain += lot.solve(wide, ties, turns, out);
         }
         let [x, y, z, _] = wide.array4(squares);
-        // The fourth number belongs to the next vertex.
-        let [a, b, c, _] = largest;
-        Part { gain, squares: x + y + z, largest: a.max(b).max(c) }
+        Part { gain, squares: x + y + z, largest: largest.max_element() }
     }
 }
 

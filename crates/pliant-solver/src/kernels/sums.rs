@@ -33,11 +33,17 @@ pub(crate) trait EdgeVectors: Copy + Sync {
 pub(crate) struct Now<'a> {
     pub(crate) layout: &'a Layout,
     pub(crate) positions: Flat<'a>,
+    /// Those of the layout: not to be looked up there for every edge.
+    edges: &'a [[u32; 2]],
 }
 
-impl Now<'_> {
+impl<'a> Now<'a> {
+    pub(crate) fn new(layout: &'a Layout, positions: &'a [DVec3]) -> Now<'a> {
+        Now { layout, positions: Flat::new(positions), edges: &layout.edges }
+    }
+
     pub(crate) fn vector(self, e: usize) -> DVec3 {
-        let [a, b] = self.layout.edges[e].map(|end| DVec3::from_slice(&self.positions.numbers(end as usize)));
+        let [a, b] = self.edges[e].map(|end| self.positions.vector(end as usize));
         a - b
     }
 }
@@ -45,7 +51,7 @@ impl Now<'_> {
 impl EdgeVectors for Now<'_> {
     #[inline(always)]
     fn get<W: Wide>(self, wide: W, e: usize) -> W::Four {
-        let [i, j] = self.layout.edges[e];
+        let [i, j] = self.edges[e];
         wide.sub4(self.positions.get(wide, i as usize), self.positions.get(wide, j as usize))
     }
 }
