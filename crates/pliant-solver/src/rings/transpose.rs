@@ -4,18 +4,19 @@
 //! sum along the block. The pluses and minuses are stored by slot, so that a block gathers them without any two
 //! threads writing to the same place. What would be subtracted after the last edge of a block is left out.
 //!
-//! Where the rim of a neighborhood follows a strip of faces, it leaves out every third edge or so: the side of the strip
-//! that lies outside. Such a *hole* of one edge between two runs is no minus followed by a plus, but R_k taken from Q of that edge
-//! alone, one sum instead of two. At r = 10 a vertex has 14 holes among 38 runs, so that it takes 61 sums in place of 76; at r = 20
-//! 127 in place of 157.
+//! Where the rim of a neighborhood follows a strip of faces, it leaves out every third edge or so: the side of the
+//! strip that lies outside. Such a *hole* of one edge between two runs is no minus followed by a plus, but R_k taken
+//! from Q of that edge alone, one sum instead of two. At r = 10 a vertex has 14 holes among 38 runs, so that it takes 61
+//! sums in place of 76; at r = 20 127 in place of 157. (For S, the other way round, single edges gain nothing: they would
+//! need an array of their own, and loops as short as a vertex has holes are mispredicted.)
 //!
 //! Lists of different lengths cost more in mispredicted branches than in sums. So those of a slot are cut into *steps*
 //! of four entries of one kind, filled up with a matrix of zeros, and a block is one plain loop over steps. Every slot
 //! has a step.
 //!
-//! Entries of a slot, first those that are added, ascend by vertex, whatever the order in which they came to be: sums over them have the same bits
-//! after a repainting as after a new build. They lie in chunks of slots, of which a repainting writes only those anew
-//! that it touches.
+//! Entries of a slot, kind by kind, ascend by vertex, whatever the order in which they came to be: sums over them have
+//! the same bits after a repainting as after a new build. They lie in chunks of slots, of which a repainting writes only
+//! those anew that it touches.
 
 use std::ops::Range;
 
@@ -40,7 +41,8 @@ const MINUS_STEP: u8 = 1 << 7;
 /// How steps count that are added, and that are subtracted.
 const SIGNS: [f64; 2] = [1.0, -1.0];
 
-/// Entries that are added at once. At r = 10 an edge has some 8 of each sign and, if it is the side of a strip, 14 holes, so that one in seven is empty.
+/// Entries that are added at once. At r = 10 an edge has some 8 of each sign and, if it is the side of a strip, 14
+/// holes, so that one in nine is empty.
 const STEP: usize = 4;
 
 /// Slots per chunk: as many as a block has, some hundred kilobytes at r = 10.
@@ -160,15 +162,12 @@ impl Transpose {
 
     /// The number of neighborhoods with runs that contain each edge of a block.
     pub(crate) fn counts(&self, layout: &Layout, block: usize) -> impl Iterator<Item = u32> {
-        let mut running = 0i32;
+        let mut running = 0;
         (layout.blocks[block] as usize..layout.blocks[block + 1] as usize).map(move |e| {
-            if !self.is_empty() {
-                let slot = e + block;
-                let (growth, n_holes) = self.chunks[slot / SLOTS].growth(slot % SLOTS);
-                running += growth;
-                return (running - n_holes) as u32;
-            }
-            0
+            let slot = e + block;
+            let (growth, n_holes) = self.chunks.get(slot / SLOTS).map_or((0, 0), |chunk| chunk.growth(slot % SLOTS));
+            running += growth;
+            (running - n_holes) as u32
         })
     }
 
@@ -392,6 +391,7 @@ mod tests {
         let neighborhoods =
             Neighborhoods::new(&analysis, &mixed_rigidity(layout.n_vertices(), 6)).expect("one size per vertex");
         let transpose = Transpose::new(layout, &neighborhoods);
+        assert!(transpose.chunks.iter().all(|chunk| !chunk.holes.steps.is_empty()), "there should be holes");
         let counts: Vec<u32> = (0..layout.n_blocks()).flat_map(|block| transpose.counts(layout, block)).collect();
         let mut plain = vec![0; layout.n_edges()];
         for k in (0..layout.n_vertices()).filter(|&k| neighborhoods.r[k] > 1) {
