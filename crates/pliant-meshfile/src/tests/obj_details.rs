@@ -65,7 +65,9 @@ fn what_another_format_cannot_hold_is_told() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let warnings = file.save(&folder.path().join("a.glb"), &file.points(), None).expect("saved");
     let said = warnings.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n");
-    assert!(said.contains("polygons of more than three corners, lines and points, curves and surfaces"), "{said}");
+    for words in ["polygons of more than three corners", "lines and points", "curves and surfaces"] {
+        assert!(said.contains(words), "{said}");
+    }
 }
 
 #[test]
