@@ -13,6 +13,9 @@ pub(crate) const JSON_BYTES: u64 = 256 << 20;
 pub(crate) const TEXT_BYTES: u64 = 256 << 20;
 /// File vertices of one model.
 pub(crate) const VERTICES: u64 = 20_000_000;
+/// File vertices of one glTF model, or numbers in the keys of one animation, that no data lies behind: a few bytes could otherwise ask for
+/// gigabytes. By eye: a mesh that is zero but for a few vertices is a curiosity at any size.
+pub(crate) const ZEROS: u64 = 1_000_000;
 /// Triangles of one model.
 pub(crate) const TRIANGLES: u64 = 40_000_000;
 /// Texture coordinates or normals of an OBJ file, elements of a glTF accessor: some writers give every corner its own.

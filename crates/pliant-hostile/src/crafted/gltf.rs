@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 pub(super) fn changed(pointer: &str, value: Value, expected: impl Into<Expected>) -> Vec<Case> {
     let (mut document, binary) = sound_document();
     set(&mut document, pointer, value.clone());
-    let mut shown: String = value.to_string().chars().take(40).collect();
+    let mut shown: String = value.to_string().chars().take(200).collect();
     if shown == "null" {
         shown = "nothing".into();
     }

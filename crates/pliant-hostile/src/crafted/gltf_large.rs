@@ -13,10 +13,24 @@ pub(super) fn cases() -> Vec<Case> {
         document["meshes"][0]["primitives"] = json!([{"attributes": {"POSITION": 0}}]);
         (document, binary)
     };
-    for (count, expected) in [(20_000_001, "20000001 elements in an accessor without data are more than")] {
-        let (document, binary) = zeros(count);
-        cases.extend(both(&format!("{count} zeros"), &document, &binary, expected));
-    }
+    let (document, binary) = zeros(20_000_001);
+    let expected = "20000001 elements in an accessor without data are more than";
+    cases.extend(both("more zeros than vertices", &document, &binary, expected));
+    let (document, binary) = zeros(20_000_000);
+    cases.extend(both(
+        "as many zeros as vertices",
+        &document,
+        &binary,
+        "vertices without data are more than the limit",
+    ));
+    let (mut many, binary) = zeros(900_000);
+    many["accessors"] = vec![many["accessors"][0].clone(); 20].into();
+    many["meshes"][0]["primitives"] = (0..20).map(|i| json!({"attributes": {"POSITION": i}})).collect();
+    cases.extend(both("zeros in many accessors", &many, &binary, "vertices without data are more than the limit"));
+    let (mut keys, binary) = sound_document();
+    keys["accessors"][10] = json!({"componentType": 5126, "count": 15_000_000, "type": "SCALAR"});
+    keys["accessors"][11] = json!({"componentType": 5126, "count": 15_000_000, "type": "VEC3"});
+    cases.extend(both("keys out of nothing", &keys, &binary, N_VERTICES).into_iter().take(1));
     let (document, binary) = zeros(300_000);
     cases.extend(both("zeros out of nothing", &document, &binary, 300_000).into_iter().take(1));
     let (mut model, binary) = sound_document();

@@ -67,7 +67,7 @@ fn star(i: i32) -> [f64; 2] {
 }
 
 fn combs(n: usize, corners: u32) -> String {
-    let one = polygon(corners, comb).replace(" 0\n", " 0\n");
+    let one = polygon(corners, comb);
     let (vertices, _) = one.split_once('f').expect("a polygon has a face");
     let face: String = (1..=corners).map(|i| format!(" -{i}")).collect();
     format!("{vertices}f{face}\n").repeat(n)

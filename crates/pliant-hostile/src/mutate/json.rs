@@ -170,7 +170,7 @@ fn shrink_or_grow(value: &mut Value, copy: Value, random: &mut Random) {
             _ if !items.is_empty() => drop(items.remove(random.below(items.len()))),
             _ => {}
         },
-        Value::Object(members) => remove_or_add(members, copy, *random.pick(KEYS), random),
+        Value::Object(members) => remove_or_add(members, copy, KEYS[random.below(KEYS.len())], random),
         _ => *value = copy,
     }
 }

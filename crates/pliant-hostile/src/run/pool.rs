@@ -118,13 +118,16 @@ impl Report {
     }
 }
 
+/// Takes the number of a file, what became of it, and what it cost in milliseconds and kilobytes.
+type Told<'a> = &'a mut dyn FnMut(u64, &Outcome, (u64, u64));
+
 /// Runs a worker to its end; the file that ended it early, and how, if one did.
 fn one_worker(
     program: &Path,
     batch: Batch,
     from: u64,
     to: u64,
-    told: &mut dyn FnMut(u64, &Outcome, (u64, u64)),
+    told: Told<'_>,
 ) -> std::io::Result<Option<(u64, String)>> {
     let mut worker = Command::new(program)
         .args(["worker", &batch.argument(), &from.to_string(), &to.to_string()])
@@ -171,7 +174,7 @@ fn one_worker(
 }
 
 /// Takes in a line of a worker; the file that it is about to try, if it says so.
-fn heard(line: &str, told: &mut dyn FnMut(u64, &Outcome, (u64, u64))) -> Option<u64> {
+fn heard(line: &str, told: Told<'_>) -> Option<u64> {
     let mut words = line.splitn(5, ' ');
     let keyword = words.next()?;
     let index = words.next()?.parse().ok()?;

@@ -110,6 +110,7 @@ struct Reader<'a> {
     /// Whether an accessor holds directions for a block, of so many numbers each.
     turnable: HashMap<(usize, usize, usize), bool>,
     elements: budget::Purse,
+    zeros: budget::Purse,
     names: budget::Purse,
     n_without_positions: usize,
     blocks: Vec<Block>,
@@ -137,6 +138,7 @@ impl<'a> Reader<'a> {
             given: HashSet::new(),
             turnable: HashMap::new(),
             elements: budget::Purse::new("elements read from accessors", budget::ELEMENTS),
+            zeros: budget::Purse::new("vertices without data", budget::ZEROS),
             names: budget::Purse::of_names(),
             n_without_positions: 0,
             blocks: Vec::new(),
@@ -259,6 +261,9 @@ impl<'a> Reader<'a> {
         let readable = checked.width == 3 && checked.component != Component::U32;
         if !readable {
             return Err(Fault::at(place, "positions are not three numbers of a type that positions may have"));
+        }
+        if !checked.has_data() {
+            self.zeros.spend(checked.count)?;
         }
         let first = self.positions.len();
         budget::check("vertices", (first + checked.count) as u64, budget::VERTICES)?;

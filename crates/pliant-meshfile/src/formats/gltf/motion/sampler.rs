@@ -41,6 +41,8 @@ pub(super) struct Sampler {
 pub(super) struct Reading<'a> {
     data: Data<'a>,
     numbers: budget::Purse,
+    /// Those that no data lies behind.
+    zeros: budget::Purse,
     times: HashMap<usize, Arc<[f64]>>,
     values: HashMap<usize, Arc<[f64]>>,
 }
@@ -48,7 +50,8 @@ pub(super) struct Reading<'a> {
 impl<'a> Reading<'a> {
     pub(super) fn new(data: Data<'a>) -> Self {
         let numbers = budget::Purse::new("numbers in the keys of an animation", budget::KEY_NUMBERS);
-        Reading { data, numbers, times: HashMap::new(), values: HashMap::new() }
+        let zeros = budget::Purse::new("numbers in keys without data", budget::ZEROS);
+        Reading { data, numbers, zeros, times: HashMap::new(), values: HashMap::new() }
     }
 
     /// The sampler that `place` describes, of a property of `width` numbers, stored `wide` to an element.
@@ -107,6 +110,9 @@ impl<'a> Reading<'a> {
         let place = || format!("accessor {accessor}");
         if checked.width != width {
             return Err(Fault::at(place(), format!("its elements have {} numbers, not {width}", checked.width)));
+        }
+        if !checked.has_data() {
+            self.zeros.spend(checked.count.saturating_mul(width))?;
         }
         self.numbers.spend(checked.count.saturating_mul(width).saturating_add(checked.n_checked()))?;
         let checked = if fractions { checked.in_fractions() } else { checked };
