@@ -69,7 +69,7 @@ impl Grouped {
         &self.members[self.offsets[list]..self.offsets[list + 1]]
     }
 
-    fn all(&self) -> &[u32] {
+    pub(crate) fn all(&self) -> &[u32] {
         &self.members
     }
 }
@@ -154,6 +154,16 @@ impl Held {
                 Some(motion) => range.for_each(|v| positions[v] = motion.apply(rest[v])),
             }
         }
+    }
+
+    /// Components without held vertices: their vertices, and the group of held vertices that is nearest.
+    pub(crate) fn loose_parts(&self) -> impl Iterator<Item = (Range<usize>, usize)> + '_ {
+        self.loose.iter().map(|component| (component.vertices.clone(), component.nearest_group as usize))
+    }
+
+    /// Whether loose components follow the nearest group.
+    pub(crate) fn loose_follow(&self) -> bool {
+        self.policy == LooseComponents::FollowNearest
     }
 
     /// The rigid motion that fits all held vertices best.

@@ -95,6 +95,7 @@
 //! depend on how many there are.
 
 mod analysis;
+mod embedded;
 mod error;
 mod held;
 mod ids;
@@ -120,6 +121,7 @@ mod tests;
 pub use analysis::Analysis;
 pub use analysis::defects::{Defect, Defects};
 pub use analysis::weights::Weights;
+pub use embedded::{DeformationGraph, Embedded};
 pub use error::{LearnError, MeshError, RigidityError, SolveError};
 pub use held::LooseComponents;
 pub use ids::VertexId;

@@ -32,33 +32,27 @@ impl Ordered {
     /// `edges`: unordered pairs (lower, upper) of rows, which are `points` in space. Returns also the place of each
     /// edge's value in the pattern; row `i` keeps its diagonal at [`Pattern::diagonal`].
     pub(crate) fn new(points: &[DVec3], edges: &[[u32; 2]]) -> (Ordered, Vec<u32>) {
-        let n = points.len();
-        let mut columns = vec![1u32; n + 1];
-        columns[0] = 0;
-        for edge in edges {
-            columns[edge[0] as usize + 1] += 1;
-        }
-        for i in 0..n {
-            columns[i + 1] += columns[i];
-        }
-        let mut by_ends: Vec<u32> = (0..edges.len() as u32).collect();
-        by_ends.sort_unstable_by_key(|&e| edges[e as usize]);
-        let mut next: Vec<u32> = columns[..n].to_vec();
-        let mut rows = vec![0u32; n + edges.len()];
-        for (i, next) in next.iter_mut().enumerate() {
-            rows[*next as usize] = i as u32;
-            *next += 1;
-        }
-        let mut slots = vec![0u32; edges.len()];
-        for e in by_ends {
-            let [lower, upper] = edges[e as usize];
-            let slot = &mut next[lower as usize];
-            rows[*slot as usize] = upper;
-            slots[e as usize] = *slot;
-            *slot += 1;
-        }
+        let (columns, rows, slots) = lower_triangle(points.len(), edges);
         let (offsets, neighbors) = graph(&columns, &rows);
         let order = nested_dissection(points, &offsets, &neighbors);
+        (Ordered { columns, rows, offsets, neighbors, order }, slots)
+    }
+
+    /// As [`Ordered::new`] for a matrix of blocks of `size` rows each: one for each of the `points`, full, and a full
+    /// one for every link (lower, upper) between two of them. The places are those of (a, b) for a < b within the blocks
+    /// of the points, one after the other, and then of all (a, b) of every link.
+    pub(crate) fn of_blocks(points: &[DVec3], links: &[[u32; 2]], size: u32) -> (Ordered, Vec<u32>) {
+        let n = points.len() as u32;
+        let within = (0..n).flat_map(|i| (0..size).flat_map(move |a| (a + 1..size).map(move |b| (i, a, i, b))));
+        let between = links.iter().flat_map(|&[i, j]| (0..size * size).map(move |ab| (i, ab / size, j, ab % size)));
+        let edges: Vec<[u32; 2]> = within.chain(between).map(|(i, a, j, b)| [i * size + a, j * size + b]).collect();
+        let (columns, rows, slots) = lower_triangle(points.len() * size as usize, &edges);
+        // The blocks are cut as wholes.
+        let (block_columns, block_rows, _) = lower_triangle(points.len(), links);
+        let (offsets, neighbors) = graph(&block_columns, &block_rows);
+        let blocks = nested_dissection(points, &offsets, &neighbors);
+        let order: Vec<u32> = blocks.iter().flat_map(|&i| i * size..(i + 1) * size).collect();
+        let (offsets, neighbors) = graph(&columns, &rows);
         (Ordered { columns, rows, offsets, neighbors, order }, slots)
     }
 
@@ -99,6 +93,35 @@ impl Pattern {
         }
         product
     }
+}
+
+/// Columns and rows of the lower triangle with a diagonal, and the place of each edge (lower, upper) in it.
+fn lower_triangle(n: usize, edges: &[[u32; 2]]) -> (Vec<u32>, Vec<u32>, Vec<u32>) {
+    let mut columns = vec![1u32; n + 1];
+    columns[0] = 0;
+    for edge in edges {
+        columns[edge[0] as usize + 1] += 1;
+    }
+    for i in 0..n {
+        columns[i + 1] += columns[i];
+    }
+    let mut by_ends: Vec<u32> = (0..edges.len() as u32).collect();
+    by_ends.sort_unstable_by_key(|&e| edges[e as usize]);
+    let mut next: Vec<u32> = columns[..n].to_vec();
+    let mut rows = vec![0u32; n + edges.len()];
+    for (i, next) in next.iter_mut().enumerate() {
+        rows[*next as usize] = i as u32;
+        *next += 1;
+    }
+    let mut slots = vec![0u32; edges.len()];
+    for e in by_ends {
+        let [lower, upper] = edges[e as usize];
+        let slot = &mut next[lower as usize];
+        rows[*slot as usize] = upper;
+        slots[e as usize] = *slot;
+        *slot += 1;
+    }
+    (columns, rows, slots)
 }
 
 /// Neighbors of every row, from the lower triangle.

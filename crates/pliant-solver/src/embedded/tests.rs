@@ -1,0 +1,217 @@
+//! Embedded deformation against its formulas, written out plainly.
+
+use std::sync::Arc;
+
+use glam::{DMat3, DQuat, DVec3};
+
+use super::affine::{Affine, affine, dot, linear, shift};
+use super::*;
+use crate::test_support::{Random, arc, box_bar, bumpy_sheet, farthest};
+use crate::{Analysis, LooseComponents, Mesh, Start, VertexId, Weights};
+
+/// The bar of the paper: 1154 vertices.
+fn bar() -> Mesh {
+    box_bar([32, 8, 8], DVec3::new(4.0, 1.0, 1.0))
+}
+
+fn embedded(mesh: Mesh, nodes: usize, held: &[VertexId]) -> Embedded {
+    let analysis = Arc::new(Analysis::new(Arc::new(mesh), Weights::Clamped));
+    let graph = Arc::new(DeformationGraph::new(&analysis, nodes, 4));
+    Embedded::new(analysis, graph, held, LooseComponents::KeepAtRest).expect("solvable")
+}
+
+fn random_state(n: usize, size: f64, seed: u64) -> Vec<Affine> {
+    let mut random = Random::new(seed);
+    let mut node = || {
+        let turn = DMat3::from_quat(DQuat::from_scaled_axis(random.vector() * 3.0 * size));
+        let stretch = DMat3::from_cols(random.vector(), random.vector(), random.vector()) * (0.3 * size);
+        affine(turn + stretch, random.vector() * size)
+    };
+    (0..n).map(|_| node()).collect()
+}
+
+/// All residuals, times the roots of their weights, by the formulas of the paper: g, R, t of the nodes, links, and by held
+/// vertex its place, nodes with weights, target.
+fn residuals(e: &Embedded, x: &[Affine]) -> Vec<f64> {
+    let mesh = e.analysis.mesh();
+    let unit = |p: DVec3| (p - e.graph.center) / e.graph.size;
+    let layout = &e.analysis.layout;
+    let place = |node: usize| unit(mesh.positions()[layout.to_caller[e.graph.nodes[node] as usize] as usize]);
+    let mut all = Vec::new();
+    for x in x {
+        let r = linear(x);
+        let [a, b, c] = [r.col(0), r.col(1), r.col(2)];
+        all.extend([a.dot(b), a.dot(c), b.dot(c), a.dot(a) - 1.0, b.dot(b) - 1.0, c.dot(c) - 1.0]);
+    }
+    for &[j, k] in &e.graph.links {
+        for (j, k) in [(j as usize, k as usize), (k as usize, j as usize)] {
+            let r = linear(&x[j]) * (place(k) - place(j)) + place(j) + shift(&x[j]) - (place(k) + shift(&x[k]));
+            all.extend(r.to_array().map(|r| r * 10f64.sqrt()));
+        }
+    }
+    for (v, &target) in e.held.vertices.iter().zip(&e.held.targets) {
+        let p = unit(mesh.positions()[v.index()]);
+        let mut at = DVec3::ZERO;
+        for (j, w) in e.graph.carriers_of(v.index()) {
+            let j = j as usize;
+            at += w * (linear(&x[j]) * (p - place(j)) + place(j) + shift(&x[j]));
+        }
+        all.extend((at - unit(target)).to_array().map(|r| r * 10.0));
+    }
+    all
+}
+
+fn energy_of(residuals: &[f64]) -> f64 {
+    residuals.iter().map(|r| r * r).sum()
+}
+
+fn bent_sheet(nodes: usize) -> Embedded {
+    let mesh = bumpy_sheet(12);
+    let held: Vec<VertexId> = (0..144).step_by(13).map(VertexId).collect();
+    let mut random = Random::new(21);
+    let targets: Vec<DVec3> = held.iter().map(|v| mesh.positions()[v.index()] + random.vector() * 3.0).collect();
+    let mut e = embedded(mesh, nodes, &held);
+    e.set_targets(&targets).expect("finite");
+    e
+}
+
+#[test]
+fn energy_and_gradient_are_those_of_the_paper_at_random_states() {
+    let e = bent_sheet(20);
+    for seed in 0..5 {
+        let mut x = random_state(20, 1.0, seed);
+        let expected = energy_of(&residuals(&e, &x));
+        let got = e.terms.energy(&x);
+        assert!((got - expected).abs() <= 1e-13 * expected, "state {seed}: {got}, expected {expected}");
+        let mut gradient = vec![affine::ZERO; 20];
+        e.terms.gradient(&x, &mut gradient);
+        let size = dot(&gradient, &gradient).sqrt();
+        for (j, gradient) in gradient.iter().enumerate() {
+            for place in 0..12 {
+                let (c, a) = (place / 4, place % 4);
+                let at = |x: &mut [Affine], h: f64| {
+                    x[j][c][a] += h;
+                    let energy = energy_of(&residuals(&e, x));
+                    x[j][c][a] -= h;
+                    energy
+                };
+                // E is of fourth degree: a central difference is off by h² times its third derivative.
+                let h = 1e-5;
+                let slope = (at(&mut x, h) - at(&mut x, -h)) / (2.0 * h);
+                let got = 2.0 * gradient[c][a];
+                assert!((got - slope).abs() < 1e-7 * size, "state {seed}, node {j}, {c}{a}: {got}, expected {slope}");
+            }
+        }
+    }
+}
+
+/// Solves a dense symmetric positive definite system.
+fn dense_solve(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Vec<f64> {
+    let n = b.len();
+    for j in 0..n {
+        for i in j + 1..n {
+            let factor = a[i][j] / a[j][j];
+            let (above, below) = a.split_at_mut(i);
+            below[0][j..].iter_mut().zip(&above[j][j..]).for_each(|(x, y)| *x -= factor * y);
+            b[i] -= factor * b[j];
+        }
+    }
+    for i in (0..n).rev() {
+        let sum: f64 = (i + 1..n).map(|k| a[i][k] * b[k]).sum();
+        b[i] = (b[i] - sum) / a[i][i];
+    }
+    b
+}
+
+#[test]
+fn the_step_is_that_of_gauss_newton() {
+    let mut e = bent_sheet(12);
+    for (seed, size) in [(0, 0.0), (1, 0.05), (2, 0.5)] {
+        let x = random_state(12, size, seed);
+        let at = residuals(&e, &x);
+        let columns: Vec<Vec<f64>> = (0..144)
+            .map(|place| {
+                let (j, c, a) = (place / 12, place % 12 / 4, place % 4);
+                let moved = |h: f64| {
+                    let mut x = x.clone();
+                    x[j][c][a] += h;
+                    residuals(&e, &x)
+                };
+                // Residuals are of second degree: a central difference is exact but for rounding.
+                let h = 1e-3;
+                moved(h).iter().zip(moved(-h)).map(|(a, b)| (a - b) / (2.0 * h)).collect()
+            })
+            .collect();
+        let product = |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
+        let matrix: Vec<Vec<f64>> =
+            columns.iter().map(|a| columns.iter().map(|b| product(a, b)).collect()).collect();
+        let expected = dense_solve(matrix.clone(), columns.iter().map(|a| -product(a, &at)).collect());
+        let mut gradient = vec![affine::ZERO; 12];
+        let mut step = vec![affine::ZERO; 12];
+        e.terms.gradient(&x, &mut gradient);
+        let direction = e.direction.as_mut().expect("nodes are active");
+        assert!(direction.find((&e.terms, &e.quadratic), (&x, &gradient), &mut step));
+        let got = step.as_flattened().as_flattened();
+        // Distance in the norm of the matrix, in which the inner iteration ends at 1e-3 up to the square root of the
+        // condition of the preconditioned matrix, below 10.
+        let off: Vec<f64> = got.iter().zip(&expected).map(|(a, b)| a - b).collect();
+        let size_of = |d: &[f64]| d.iter().zip(&matrix).map(|(x, row)| x * product(row, d)).sum::<f64>().sqrt();
+        let (off, whole) = (size_of(&off), size_of(&expected));
+        assert!(off < 1e-2 * whole, "state {seed}: off by {off} of {whole}, {} rounds", e.rounds());
+    }
+}
+
+#[test]
+fn a_bar_bent_by_170_degrees_is_settled_after_15_steps() {
+    for nodes in [100, 200, 500] {
+        let mesh = bar();
+        assert_eq!(mesh.n_vertices(), 1154);
+        let (held, targets) = arc(&mesh, 4.0, 170f64.to_radians());
+        let mut e = embedded(mesh, nodes, &held);
+        e.set_targets(&targets).expect("finite");
+        e.start(Start::Auto);
+        let mut energies = vec![e.energy()];
+        let mut rounds = Vec::new();
+        for step in 0..30 {
+            let report = e.step();
+            assert!(report.energy <= energies[step], "step {step}: {} after {}", report.energy, energies[step]);
+            energies.push(report.energy);
+            rounds.push(e.rounds());
+        }
+        eprintln!("{nodes}: {energies:?} {rounds:?} error {}", e.largest_handle_error());
+        let (after, last) = (energies[15], energies[30]);
+        assert!(after - last <= 1e-3 * last, "{nodes} nodes: {after} after 15 steps, {last} after 30: {energies:?}");
+    }
+}
+
+#[test]
+fn rest_is_reproduced_to_the_last_bit() {
+    let mesh = bumpy_sheet(30);
+    let rest = mesh.positions().to_vec();
+    let held = [0, 17, 400].map(VertexId);
+    let mut e = embedded(mesh, 50, &held);
+    assert_eq!(e.energy(), 0.0);
+    assert_eq!(e.step().energy, 0.0);
+    assert_eq!(e.positions(), rest);
+    assert!(e.largest_handle_error() < 1e-13);
+}
+
+#[test]
+fn a_rigid_motion_of_the_handles_moves_all() {
+    let mesh = bumpy_sheet(30);
+    let turn = DQuat::from_axis_angle(DVec3::new(1.0, -2.0, 0.5).normalize(), 2.0);
+    let expected: Vec<DVec3> = mesh.positions().iter().map(|&p| turn * p + DVec3::new(30.0, -4.0, 7.0)).collect();
+    let held = [0, 29, 450, 870].map(VertexId);
+    let targets = held.map(|v| expected[v.index()]);
+    let mut e = embedded(mesh, 50, &held);
+    e.set_targets(&targets).expect("finite");
+    e.start(Start::Auto);
+    assert_eq!(e.energy(), 0.0, "recognized at once");
+    let (v, off) = farthest(&e.positions(), &expected);
+    assert!(off < 1e-12 * 50.0, "vertex {v} is off by {off}");
+    // And found by steps alone from rest.
+    e.start(Start::Rest);
+    (0..60).for_each(|_| _ = e.step());
+    let (v, off) = farthest(&e.positions(), &expected);
+    assert!(off < 1e-6, "vertex {v} is off by {off} after steps from rest, energy {}", e.energy());
+}
