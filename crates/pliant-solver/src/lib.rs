@@ -112,6 +112,7 @@ mod rigid_fit;
 mod rigidity;
 mod rings;
 mod solver;
+mod sr_arap;
 mod start;
 #[cfg(test)]
 mod test_support;
@@ -130,4 +131,5 @@ pub use mesh::{LARGEST_COORDINATE, Mesh};
 pub use rigidity::Rigidity;
 pub use rings::neighborhoods::Neighborhoods;
 pub use solver::{Minimizer, Solver, StepReport};
+pub use sr_arap::SrArap;
 pub use start::Start;

@@ -10,24 +10,7 @@ const MANY_EDGES: usize = 6;
 impl Solver {
     /// The matrix of the global step: d w Laplacian, fixed vertices as identity rows.
     pub(crate) fn assemble(&self, stiffness: &[f64], is_fixed: &[bool]) -> Vec<f64> {
-        let Analysis { layout, pattern, slots, .. } = &*self.analysis;
-        let mut values = vec![0.0; pattern.n_values()];
-        for (e, &[i, j]) in layout.edges.iter().enumerate() {
-            let (i_free, j_free) = (!is_fixed[i as usize], !is_fixed[j as usize]);
-            if i_free {
-                values[pattern.diagonal(i as usize)] += stiffness[e];
-            }
-            if j_free {
-                values[pattern.diagonal(j as usize)] += stiffness[e];
-            }
-            if i_free && j_free {
-                values[slots[e] as usize] = -stiffness[e];
-            }
-        }
-        for i in (0..layout.n_vertices()).filter(|&i| is_fixed[i]) {
-            values[pattern.diagonal(i)] = 1.0;
-        }
-        values
+        assemble(&self.analysis, stiffness, is_fixed)
     }
 
     /// The matrix where only the rows of the ends of these edges differ from the one that is factored. The same bits as
@@ -89,6 +72,28 @@ impl Solver {
             }
         }
     }
+}
+
+/// The Laplacian with these stiffnesses of the edges, fixed vertices as identity rows.
+pub(crate) fn assemble(analysis: &Analysis, stiffness: &[f64], is_fixed: &[bool]) -> Vec<f64> {
+    let Analysis { layout, pattern, slots, .. } = analysis;
+    let mut values = vec![0.0; pattern.n_values()];
+    for (e, &[i, j]) in layout.edges.iter().enumerate() {
+        let (i_free, j_free) = (!is_fixed[i as usize], !is_fixed[j as usize]);
+        if i_free {
+            values[pattern.diagonal(i as usize)] += stiffness[e];
+        }
+        if j_free {
+            values[pattern.diagonal(j as usize)] += stiffness[e];
+        }
+        if i_free && j_free {
+            values[slots[e] as usize] = -stiffness[e];
+        }
+    }
+    for i in (0..layout.n_vertices()).filter(|&i| is_fixed[i]) {
+        values[pattern.diagonal(i)] = 1.0;
+    }
+    values
 }
 
 pub(crate) fn explain(analysis: &Analysis, error: FactorError) -> SolveError {

@@ -13,6 +13,10 @@
 use glam::{DQuat, DVec3};
 
 use crate::Solver;
+use crate::analysis::Layout;
+use crate::held::Held;
+use crate::kernels::quad::Quad;
+use crate::linear::System;
 
 /// Where an iteration begins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,8 +36,10 @@ impl Solver {
     /// at r = 1, 2 and 6, the one that was lowest after one iteration was still lowest after three.
     pub(crate) fn start_auto(&mut self) {
         let before = self.pose.clone();
-        let rigid = self.component_turns();
-        let blended = self.blended_turns(&rigid);
+        let Solver { analysis, rings, held, system, workspace, .. } = self;
+        let (layout, held) = (&analysis.layout, &*held);
+        let rigid = component_turns(layout, held);
+        let blended = blended_turns((layout, held), &rigid, &rings.stiffness, system, &mut workspace.rhs);
         let mut best = None;
         for candidate in 0..4 {
             self.pose.clone_from(&before);
@@ -63,75 +69,74 @@ impl Solver {
         }
         self.iteration = 0;
     }
+}
 
-    /// For every vertex the rotation that fits the held vertices of its component; the identity in loose components.
-    fn component_turns(&self) -> Vec<DQuat> {
-        let layout = &self.analysis.layout;
-        let everywhere = self.held.motion_of_all(&layout.rest).rotation;
-        let mut turns = vec![DQuat::IDENTITY; layout.n_vertices()];
-        let mut first = 0;
-        for members in layout.component.chunk_by(|a, b| a == b) {
-            let vertices = first..first + members.len();
-            first = vertices.end;
-            let here = self.held.by_component.list(members[0] as usize);
-            if !here.is_empty() {
-                turns[vertices].fill(self.held.motion_of(&layout.rest, everywhere, here).rotation);
-            }
+/// For every vertex the rotation that fits the held vertices of its component; the identity in loose components.
+pub(crate) fn component_turns(layout: &Layout, held: &Held) -> Vec<DQuat> {
+    let everywhere = held.motion_of_all(&layout.rest).rotation;
+    let mut turns = vec![DQuat::IDENTITY; layout.n_vertices()];
+    let mut first = 0;
+    for members in layout.component.chunk_by(|a, b| a == b) {
+        let vertices = first..first + members.len();
+        first = vertices.end;
+        let here = held.by_component.list(members[0] as usize);
+        if !here.is_empty() {
+            turns[vertices].fill(held.motion_of(&layout.rest, everywhere, here).rotation);
         }
-        turns
     }
+    turns
+}
 
-    /// Rotations between those of the groups; none if there is only one group.
-    fn blended_turns(&mut self, rigid: &[DQuat]) -> Option<Vec<DQuat>> {
-        let (held, n_groups) = (&self.held, self.held.by_group.len());
-        if n_groups < 2 {
-            return None;
-        }
-        let analysis = self.analysis.clone();
-        let layout = &analysis.layout;
-        // A vertex of each group, for its component.
-        let member: Vec<usize> =
-            (0..n_groups).map(|group| held.internal[held.by_group.list(group)[0] as usize] as usize).collect();
-        let turns: Vec<DQuat> = (0..n_groups)
-            .map(|group| held.motion_of(&layout.rest, rigid[member[group]], held.by_group.list(group)).rotation)
-            .collect();
-        // The largest group of each component, the first of equals.
-        let size = |group: usize| held.by_group.list(group).len();
-        let mut largest: Vec<Option<usize>> = vec![None; held.by_component.len()];
-        for group in 0..n_groups {
-            let largest = &mut largest[layout.component[member[group]] as usize];
-            if largest.is_none_or(|other| size(group) > size(other)) {
-                *largest = Some(group);
-            }
-        }
-        let reference = |v: usize| largest[layout.component[v] as usize].map_or(DQuat::IDENTITY, |g| turns[g]);
-        let mut logarithms = vec![DVec3::ZERO; layout.n_vertices()];
-        for (i, &v) in held.internal.iter().enumerate() {
-            let relative = reference(v as usize).conjugate() * turns[held.group[i] as usize];
-            logarithms[v as usize] = logarithm(relative);
-        }
-        self.spread(&mut logarithms);
-        Some((0..layout.n_vertices()).map(|v| reference(v) * exponential(logarithms[v])).collect())
+/// Rotations between those of the groups of held vertices; none if there is only one group. `rigid`: as from
+/// [`component_turns`]. The system is that of the global step with these stiffnesses of the edges; `rhs` is room for it.
+pub(crate) fn blended_turns(
+    (layout, held): (&Layout, &Held),
+    rigid: &[DQuat],
+    stiffness: &[f64],
+    system: &mut System,
+    rhs: &mut [Quad],
+) -> Option<Vec<DQuat>> {
+    let n_groups = held.by_group.len();
+    if n_groups < 2 {
+        return None;
     }
+    // A vertex of each group, for its component.
+    let member: Vec<usize> =
+        (0..n_groups).map(|group| held.internal[held.by_group.list(group)[0] as usize] as usize).collect();
+    let turns: Vec<DQuat> = (0..n_groups)
+        .map(|group| held.motion_of(&layout.rest, rigid[member[group]], held.by_group.list(group)).rotation)
+        .collect();
+    // The largest group of each component, the first of equals.
+    let size = |group: usize| held.by_group.list(group).len();
+    let mut largest: Vec<Option<usize>> = vec![None; held.by_component.len()];
+    for group in 0..n_groups {
+        let largest = &mut largest[layout.component[member[group]] as usize];
+        if largest.is_none_or(|other| size(group) > size(other)) {
+            *largest = Some(group);
+        }
+    }
+    let reference = |v: usize| largest[layout.component[v] as usize].map_or(DQuat::IDENTITY, |g| turns[g]);
+    let mut logarithms = vec![DVec3::ZERO; layout.n_vertices()];
+    for (i, &v) in held.internal.iter().enumerate() {
+        let relative = reference(v as usize).conjugate() * turns[held.group[i] as usize];
+        logarithms[v as usize] = logarithm(relative);
+    }
+    spread((layout, &held.is_fixed), stiffness, &logarithms, rhs);
+    system.solve_in_place(rhs);
+    (0..layout.n_vertices()).filter(|&v| !held.is_fixed[v]).for_each(|v| logarithms[v] = rhs[v].xyz());
+    Some((0..layout.n_vertices()).map(|v| reference(v) * exponential(logarithms[v])).collect())
+}
 
-    /// Extends values at fixed vertices harmonically to the free ones.
-    fn spread(&mut self, values: &mut [DVec3]) {
-        let layout = &self.analysis.layout;
-        let n = layout.n_vertices();
-        let rhs = &mut self.workspace.rhs;
-        for (i, rhs) in rhs.iter_mut().enumerate() {
-            let mut pull = DVec3::ZERO;
-            if !self.held.is_fixed[i] {
-                for spoke in layout.spokes(i).iter().filter(|spoke| self.held.is_fixed[spoke.vertex as usize]) {
-                    pull += values[spoke.vertex as usize] * self.rings.stiffness[spoke.edge as usize];
-                }
+/// The right-hand side with which values at fixed vertices are extended harmonically to the free ones.
+fn spread((layout, is_fixed): (&Layout, &[bool]), stiffness: &[f64], values: &[DVec3], rhs: &mut [Quad]) {
+    for (i, rhs) in rhs.iter_mut().enumerate() {
+        let mut pull = DVec3::ZERO;
+        if !is_fixed[i] {
+            for spoke in layout.spokes(i).iter().filter(|spoke| is_fixed[spoke.vertex as usize]) {
+                pull += values[spoke.vertex as usize] * stiffness[spoke.edge as usize];
             }
-            *rhs = pull.into();
         }
-        self.system.solve_in_place(rhs);
-        for i in (0..n).filter(|&i| !self.held.is_fixed[i]) {
-            values[i] = rhs[i].xyz();
-        }
+        *rhs = pull.into();
     }
 }
 

@@ -23,8 +23,8 @@ const ROWS: usize = TURNS + 3;
 /// elsewhere it is far below what resists (bending of a whole component: some 1e-4).
 const DAMPING: f64 = 1e-8;
 /// The conjugate gradients end when the error, measured by the preconditioner, is that part of the first: Gauss–Newton
-/// itself is no more exact.
-const ENOUGH: f64 = 1e-3;
+/// itself is no more exact, and a round costs half as much as the factorization.
+const ENOUGH: f64 = 1e-2;
 /// Or after so many rounds; the step so far lowers E none the less.
 const MOST_ROUNDS: usize = 40;
 
@@ -89,8 +89,7 @@ impl Direction {
         for (j, (x, block)) in x.iter().zip(&quadratic.diagonal).enumerate() {
             let frame = Frame::of(x, self.frames[j].turn);
             let (jacobian, own) = frame.own(block);
-            let mut stretch: Stretch =
-                std::array::from_fn(|a| std::array::from_fn(|b| own[TURNS + a][TURNS + b]));
+            let mut stretch: Stretch = std::array::from_fn(|a| std::array::from_fn(|b| own[TURNS + a][TURNS + b]));
             (0..STRETCHES).for_each(|a| stretch[a][a] *= 1.0 + DAMPING);
             self.stretches[j] = cholesky(stretch);
             (self.frames[j], self.jacobians[j]) = (frame, jacobian);

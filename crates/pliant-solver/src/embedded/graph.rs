@@ -12,9 +12,9 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::sampling::farthest_points;
+use crate::Analysis;
 use crate::analysis::Layout;
 use crate::kernels::parallel::CHUNK;
-use crate::Analysis;
 
 /// Steps from cell to cell within which nodes are looked at: there are some 18 nodes within two.
 const STEPS: usize = 2;

@@ -64,6 +64,10 @@ use quadratic::Quadratic;
 
 /// How often a step is halved before it is given up.
 const MOST_HALVINGS: usize = 20;
+/// The whole change is taken unless E is lowest before this part of it.
+const TOO_FAR: f64 = 0.8;
+/// The least part that is tried at once.
+const SHORTEST: f64 = 0.1;
 /// The part of the decrease that the gradient promises which a step must keep (Armijo's rule, with the usual number).
 const KEPT: f64 = 1e-4;
 
@@ -218,24 +222,39 @@ impl Embedded {
         StepReport { energy: self.energy, iteration: self.iteration, relative_decrease }
     }
 
-    /// Takes as much of the change as lowers E.
+    /// Takes as much of the change as lowers E well: all of it, or up to where the parabola through what is known of E is
+    /// lowest, and half of that should it come to it. Where a component is strained much, the whole change may go twice as
+    /// far as it should, and then iterations would swing to and fro.
     fn advance(&mut self, before: f64) {
         let slope = 2.0 * affine::dot(&self.gradient, &self.change);
-        let mut length = 1.0;
-        let Some(direction) = &self.direction else { return };
-        for _ in 0..MOST_HALVINGS {
-            let frames = direction.frames();
-            for (((tried, x), change), frame) in self.tried.iter_mut().zip(&self.x).zip(&self.change).zip(frames) {
-                *tried = turned(x, change, frame, length);
+        let whole = self.try_length(1.0);
+        let lowest = -slope / (2.0 * (whole - before - slope));
+        let (mut length, mut energy) = (1.0, whole);
+        if lowest < TOO_FAR || whole.is_nan() {
+            length = if lowest.is_nan() { 0.5 } else { lowest.max(SHORTEST) };
+            energy = self.try_length(length);
+            if energy > whole {
+                (length, energy) = (1.0, self.try_length(1.0));
             }
-            let energy = self.terms.energy(&self.tried);
+        }
+        for _ in 0..MOST_HALVINGS {
             if energy <= before + KEPT * length * slope {
                 std::mem::swap(&mut self.x, &mut self.tried);
                 self.energy = energy;
                 return;
             }
             length *= 0.5;
+            energy = self.try_length(length);
         }
+    }
+
+    /// E after a part of the change.
+    fn try_length(&mut self, length: f64) -> f64 {
+        let frames = self.direction.as_ref().map_or(&[][..], Direction::frames);
+        for (((tried, x), change), frame) in self.tried.iter_mut().zip(&self.x).zip(&self.change).zip(frames) {
+            *tried = turned(x, change, frame, length);
+        }
+        self.terms.energy(&self.tried)
     }
 
     /// E after the last change or step; exactly 0 where it cannot be told from rounding. In coordinates in which the largest
@@ -390,9 +409,9 @@ impl Embedded {
     fn moved(&self, table: &[Affine], v: usize) -> DVec3 {
         let p = self.rest_positions()[v];
         let arm = p - self.graph.center;
-        self.graph.carriers_of(v).fold(p, |sum, (node, w)| {
-            sum + affine::times(&table[node as usize], &[arm.x, arm.y, arm.z, 1.0]) * w
-        })
+        self.graph
+            .carriers_of(v)
+            .fold(p, |sum, (node, w)| sum + affine::times(&table[node as usize], &[arm.x, arm.y, arm.z, 1.0]) * w)
     }
 }
 

@@ -143,8 +143,7 @@ fn the_step_is_that_of_gauss_newton() {
             })
             .collect();
         let product = |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
-        let matrix: Vec<Vec<f64>> =
-            columns.iter().map(|a| columns.iter().map(|b| product(a, b)).collect()).collect();
+        let matrix: Vec<Vec<f64>> = columns.iter().map(|a| columns.iter().map(|b| product(a, b)).collect()).collect();
         let expected = dense_solve(matrix.clone(), columns.iter().map(|a| -product(a, &at)).collect());
         let mut gradient = vec![affine::ZERO; 12];
         let mut step = vec![affine::ZERO; 12];
@@ -152,18 +151,18 @@ fn the_step_is_that_of_gauss_newton() {
         let direction = e.direction.as_mut().expect("nodes are active");
         assert!(direction.find((&e.terms, &e.quadratic), (&x, &gradient), &mut step));
         let got = step.as_flattened().as_flattened();
-        // Distance in the norm of the matrix, in which the inner iteration ends at 1e-3 up to the square root of the
+        // Distance in the norm of the matrix, in which the inner iteration ends at 1e-2 up to the square root of the
         // condition of the preconditioned matrix, below 10.
         let off: Vec<f64> = got.iter().zip(&expected).map(|(a, b)| a - b).collect();
         let size_of = |d: &[f64]| d.iter().zip(&matrix).map(|(x, row)| x * product(row, d)).sum::<f64>().sqrt();
         let (off, whole) = (size_of(&off), size_of(&expected));
-        assert!(off < 1e-2 * whole, "state {seed}: off by {off} of {whole}, {} rounds", e.rounds());
+        assert!(off < 3e-2 * whole, "state {seed}: off by {off} of {whole}, {} rounds", e.rounds());
     }
 }
 
 #[test]
-fn a_bar_bent_by_170_degrees_is_settled_after_15_steps() {
-    for nodes in [100, 200, 500] {
+fn a_bar_bent_by_170_degrees_is_settled_after_15_steps_and_energy_never_rises() {
+    for nodes in [100, 500] {
         let mesh = bar();
         assert_eq!(mesh.n_vertices(), 1154);
         let (held, targets) = arc(&mesh, 4.0, 170f64.to_radians());
@@ -171,16 +170,16 @@ fn a_bar_bent_by_170_degrees_is_settled_after_15_steps() {
         e.set_targets(&targets).expect("finite");
         e.start(Start::Auto);
         let mut energies = vec![e.energy()];
-        let mut rounds = Vec::new();
-        for step in 0..30 {
+        for step in 0..40 {
             let report = e.step();
             assert!(report.energy <= energies[step], "step {step}: {} after {}", report.energy, energies[step]);
             energies.push(report.energy);
-            rounds.push(e.rounds());
         }
-        eprintln!("{nodes}: {energies:?} {rounds:?} error {}", e.largest_handle_error());
-        let (after, last) = (energies[15], energies[30]);
-        assert!(after - last <= 1e-3 * last, "{nodes} nodes: {after} after 15 steps, {last} after 30: {energies:?}");
+        let (after, last) = (energies[15], energies[40]);
+        assert!(after - last <= 1e-3 * last, "{nodes} nodes: {after} after 15 steps, {last} after 40: {energies:?}");
+        // Handles are soft, but not so soft that the eye sees it: a fiftieth of the bar's thickness from the mean.
+        let error = e.largest_handle_error();
+        assert!(error < 0.1, "{nodes} nodes: a handle is off by {error}");
     }
 }
 
@@ -214,4 +213,97 @@ fn a_rigid_motion_of_the_handles_moves_all() {
     (0..60).for_each(|_| _ = e.step());
     let (v, off) = farthest(&e.positions(), &expected);
     assert!(off < 1e-6, "vertex {v} is off by {off} after steps from rest, energy {}", e.energy());
+}
+
+#[test]
+fn the_number_of_threads_changes_no_bit() {
+    let bent = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        pool.install(|| {
+            let mesh = bumpy_sheet(80);
+            let held = [0, 79, 3000, 6399].map(VertexId);
+            let targets = held.map(|v| mesh.positions()[v.index()] * 1.3);
+            let mut e = embedded(mesh, 150, &held);
+            e.set_targets(&targets).expect("finite");
+            (0..4).for_each(|_| _ = e.step());
+            e.positions()
+        })
+    };
+    assert_eq!(bent(1), bent(3));
+}
+
+/// Two bars side by side, closer than their nodes are to each other, and a single vertex.
+fn two_bars() -> Mesh {
+    let one = box_bar([16, 4, 4], DVec3::new(4.0, 1.0, 1.0));
+    let n = one.n_vertices() as u32;
+    let mut positions = one.positions().to_vec();
+    positions.extend(one.positions().iter().map(|&p| p + DVec3::Y * 1.01));
+    positions.push(DVec3::new(2.0, 2.0, 5.0));
+    let mut triangles = one.triangles().to_vec();
+    triangles.extend(one.triangles().iter().map(|t| t.map(|v| v + n)));
+    Mesh::new(positions, triangles).expect("two boxes are valid")
+}
+
+#[test]
+fn components_have_nodes_of_their_own_and_do_not_drag_each_other() {
+    let mesh = two_bars();
+    let rest = mesh.positions().to_vec();
+    let n = (rest.len() - 1) / 2;
+    let (held, targets) = arc(&mesh, 4.0, 1.0);
+    let below: Vec<_> = held.iter().zip(targets).filter(|(v, _)| v.index() < n).collect();
+    let held: Vec<VertexId> = below.iter().map(|(v, _)| **v).collect();
+    let targets: Vec<DVec3> = below.iter().map(|(_, target)| *target).collect();
+    for (nodes, expected) in [(0, 3), (2, 3), (60, 60), (10_000, rest.len())] {
+        let mut e = embedded(two_bars(), nodes, &held);
+        assert_eq!(e.graph().n_nodes(), expected, "asked for {nodes}");
+        let component = |node: u32| e.analysis.layout.component[e.graph.nodes[node as usize] as usize];
+        for &[j, k] in &e.graph.links {
+            assert_eq!(component(j), component(k), "link {j} {k}");
+        }
+        e.set_targets(&targets).expect("finite");
+        e.start(Start::Auto);
+        (0..5).for_each(|_| _ = e.step());
+        let positions = e.positions();
+        assert!(positions.iter().all(|p| p.is_finite()), "{nodes} nodes");
+        assert_eq!(positions[n..], rest[n..], "{nodes} nodes: what is not held stays");
+        assert_ne!(positions[..n], rest[..n], "{nodes} nodes: what is held moves");
+    }
+}
+
+#[test]
+fn other_handles_keep_the_pose_and_bring_the_same_end() {
+    let mesh = bar();
+    let (held, targets) = arc(&mesh, 4.0, 1.0);
+    let mut e = embedded(mesh, 60, &held[..10]);
+    (0..3).for_each(|_| _ = e.step());
+    e.set_held(&held).expect("in range");
+    assert_eq!(e.energy(), 0.0, "targets are where the vertices are");
+    e.set_targets(&targets).expect("finite");
+    (0..40).for_each(|_| _ = e.step());
+    let mut fresh = embedded(bar(), 60, &held);
+    fresh.set_targets(&targets).expect("finite");
+    (0..40).for_each(|_| _ = fresh.step());
+    let (v, off) = farthest(&e.positions(), &fresh.positions());
+    assert!(off < 1e-5, "vertex {v} is off by {off}");
+}
+
+#[test]
+fn from_a_bent_surface_taken_as_rest_nothing_moves_until_a_handle_does() {
+    let mesh = bar();
+    let (held, targets) = arc(&mesh, 4.0, 1.0);
+    let mut e = embedded(mesh, 60, &held);
+    e.set_targets(&targets).expect("finite");
+    (0..10).for_each(|_| _ = e.step());
+    let bent: Arc<[DVec3]> = e.positions().into();
+    e.set_rest(bent.clone()).expect("finite");
+    let at: Vec<DVec3> = held.iter().map(|v| bent[v.index()]).collect();
+    e.set_targets(&at).expect("finite");
+    assert_eq!(e.step().energy, 0.0);
+    assert_eq!(e.positions(), *bent);
+    let lifted: Vec<DVec3> = at.iter().map(|&p| p + DVec3::Z).collect();
+    e.set_targets(&lifted).expect("finite");
+    (0..15).for_each(|_| _ = e.step());
+    for (v, (got, rest)) in e.positions().iter().zip(&*bent).enumerate() {
+        assert!(got.distance(*rest + DVec3::Z) < 1e-6, "vertex {v}: {got}, expected {}", *rest + DVec3::Z);
+    }
 }
