@@ -41,6 +41,9 @@
 //! with A(k, r) the mixed Voronoi areas of all vertices within r edges of k. Then r_k = argmin Ẽ(k, r) + ω (r_max − r),
 //! for any ω without looking at the poses again ([`EnergyTable::learn`]). [`Rigidity::smoothed`] removes specks.
 //!
+//! # Other methods
+//! [`SrArap`] and [`Embedded`] are there to be compared with; [`Method`] prepares any of them for the same steps.
+//!
 //! # Differences from the paper
 //! - Equations (4) and (5) print a factor 2 on the left side only, with which R = I would shrink the rest pose by half.
 //!   The line above is the zero gradient of (1).
@@ -90,11 +93,14 @@
 //! | [`PoseLearner`] | the range of r | a search around every vertex; a microsecond per vertex and pose for each pose |
 //! | [`EnergyTable`] | as long as wanted; any ω and r within | reading it once for each ω |
 //! | [`Solver`] | as long as wanted; r and held vertices can be changed | numeric factorization |
+//! | [`DeformationGraph`] | mesh, number of nodes and k | 2 µs a vertex |
+//! | [`SrArap`], [`Embedded`] | as long as wanted; held vertices can be changed | factorizations |
 //!
 //! Nothing here reads files or clocks. Loops over many elements are shared among rayon's threads, and results do not
 //! depend on how many there are.
 
 mod analysis;
+mod deformer;
 mod embedded;
 mod error;
 mod held;
@@ -122,6 +128,7 @@ mod tests;
 pub use analysis::Analysis;
 pub use analysis::defects::{Defect, Defects};
 pub use analysis::weights::Weights;
+pub use deformer::{Deformer, Method};
 pub use embedded::{DeformationGraph, Embedded};
 pub use error::{LearnError, MeshError, RigidityError, SolveError};
 pub use held::LooseComponents;

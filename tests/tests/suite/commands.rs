@@ -115,6 +115,11 @@ fn wrong_usage_ends_with_2_and_explains_itself() {
         with(&["--tolerance", "low"]),
         with(&["--threads", "-1"]),
         with(&["--method", "arap", "--rigidity", "3"]),
+        with(&["--method", "sr-arap", "--rigidity", "3"]),
+        with(&["--method", "embedded", "--alpha", "0.1"]),
+        with(&["--alpha", "0.1"]),
+        with(&["--method", "sr-arap", "--nodes", "50"]),
+        with(&["--node-neighbors", "3"]),
     ];
     for arguments in wrong {
         let outcome = pliant(&arguments);

@@ -223,6 +223,29 @@ fn arap_is_rigidity_1_everywhere() {
 }
 
 #[test]
+fn other_methods_bend_the_same_handles_and_say_what_they_are() {
+    let (folder, shape) = (Folder::new(), small_bar());
+    let mesh = folder.write("bar.obj", shape.obj());
+    let handles = handles_json(&lift(&shape));
+    let run = |name: &str, more: &[&str]| {
+        let options = [&["--method", name], more].concat();
+        deform(&folder, &mesh, &handles, &folder.path(&format!("{name}.obj")), &options)
+    };
+    let smooth = run("sr-arap", &["--alpha", "0.1"]);
+    let embedded = run("embedded", &["--nodes", "40", "--node-neighbors", "3"]);
+    for (report, method, solver) in [(&smooth, "sr-arap", "lbfgs"), (&embedded, "embedded", "gauss-newton")] {
+        assert_eq!([&report["method"], &report["solver"]], [method, solver]);
+        assert_eq!(report["converged"], json!(true), "{method}");
+        let energies: Vec<f64> =
+            report["energies"].as_array().expect("a list").iter().filter_map(|energy| energy.as_f64()).collect();
+        assert!(energies.is_sorted_by(|before, after| after <= before), "{method}: {energies:?}");
+    }
+    let error = |report: &serde_json::Value| report["max_handle_error"].as_f64().expect("a number");
+    assert_eq!(error(&smooth), 0.0);
+    assert!(error(&embedded) > 0.0, "handles are soft");
+}
+
+#[test]
 fn an_obj_keeps_its_order_its_quads_and_everything_else() {
     let folder = Folder::new();
     let text = "# made by hand\nmtllib paint.mtl\no sheet\nv 0 0 0\nv 1 0 0\nvt 0 0\nv 1 1 0\nv 0 1 0\nvt 1 1\nv 2 0 0\n\

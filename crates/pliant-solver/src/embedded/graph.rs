@@ -7,6 +7,7 @@
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
+use std::ops::RangeInclusive;
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -19,7 +20,7 @@ use crate::kernels::parallel::CHUNK;
 /// Steps from cell to cell within which nodes are looked at: there are some 18 nodes within two.
 const STEPS: usize = 2;
 /// The most nodes that may carry a vertex.
-pub(super) const MOST_NEIGHBORS: usize = 16;
+const MOST_NEIGHBORS: usize = *DeformationGraph::NEIGHBORS.end();
 
 /// Nodes, what they carry and how they are linked: depends on the mesh alone, and can be shared.
 pub struct DeformationGraph {
@@ -38,11 +39,14 @@ pub struct DeformationGraph {
 }
 
 impl DeformationGraph {
+    /// How many nodes may carry a vertex: with one there would be no transition, and more than some change little.
+    pub const NEIGHBORS: RangeInclusive<usize> = 2..=16;
+
     /// `n_nodes` nodes (not more than there are vertices, and at least one for every component), `k` of which carry a
-    /// vertex: 1 to 16.
+    /// vertex, brought into [`DeformationGraph::NEIGHBORS`].
     pub fn new(analysis: &Analysis, n_nodes: usize, k: usize) -> DeformationGraph {
         let layout = &analysis.layout;
-        let k = k.clamp(1, MOST_NEIGHBORS);
+        let k = k.clamp(*Self::NEIGHBORS.start(), MOST_NEIGHBORS);
         let nodes = farthest_points(layout, n_nodes);
         let cells = cells(layout, &nodes);
         let pairs = touching(layout, &cells);

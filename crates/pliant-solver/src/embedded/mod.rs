@@ -101,6 +101,7 @@ pub struct Embedded {
     tried: Vec<Affine>,
     energy: f64,
     iteration: u64,
+    report: StepReport,
 }
 
 /// Not an active node.
@@ -133,6 +134,7 @@ impl Embedded {
             tried: Vec::new(),
             energy: 0.0,
             iteration: 0,
+            report: StepReport { energy: 0.0, iteration: 0, relative_decrease: 0.0 },
             analysis,
             graph,
             held,
@@ -204,6 +206,17 @@ impl Embedded {
 
     /// One step of Gauss–Newton; E never rises.
     pub fn step(&mut self) -> StepReport {
+        self.global_step();
+        self.local_step()
+    }
+
+    /// What the last step achieved: there is no second half.
+    pub fn local_step(&mut self) -> StepReport {
+        self.report
+    }
+
+    /// The whole step.
+    pub fn global_step(&mut self) {
         let before = self.terms.energy(&self.x);
         self.iteration += 1;
         self.energy = before;
@@ -219,7 +232,7 @@ impl Embedded {
             self.energy = 0.0;
         }
         let relative_decrease = if before == 0.0 { 0.0 } else { (before - self.energy) / before };
-        StepReport { energy: self.energy, iteration: self.iteration, relative_decrease }
+        self.report = StepReport { energy: self.energy, iteration: self.iteration, relative_decrease };
     }
 
     /// Takes as much of the change as lowers E well: all of it, or up to where the parabola through what is known of E is

@@ -11,7 +11,7 @@ use crate::{Analysis, LooseComponents, Mesh, Start, VertexId, Weights};
 
 /// The bar of the paper: 1154 vertices.
 fn bar() -> Mesh {
-    box_bar([32, 8, 8], DVec3::new(4.0, 1.0, 1.0))
+    box_bar([45, 6, 6], DVec3::new(7.5, 1.0, 1.0))
 }
 
 fn embedded(mesh: Mesh, nodes: usize, held: &[VertexId]) -> Embedded {
@@ -165,7 +165,7 @@ fn a_bar_bent_by_170_degrees_is_settled_after_15_steps_and_energy_never_rises() 
     for nodes in [100, 500] {
         let mesh = bar();
         assert_eq!(mesh.n_vertices(), 1154);
-        let (held, targets) = arc(&mesh, 4.0, 170f64.to_radians());
+        let (held, targets) = arc(&mesh, 7.5, 170f64.to_radians());
         let mut e = embedded(mesh, nodes, &held);
         e.set_targets(&targets).expect("finite");
         e.start(Start::Auto);
@@ -273,7 +273,7 @@ fn components_have_nodes_of_their_own_and_do_not_drag_each_other() {
 #[test]
 fn other_handles_keep_the_pose_and_bring_the_same_end() {
     let mesh = bar();
-    let (held, targets) = arc(&mesh, 4.0, 1.0);
+    let (held, targets) = arc(&mesh, 7.5, 1.0);
     let mut e = embedded(mesh, 60, &held[..10]);
     (0..3).for_each(|_| _ = e.step());
     e.set_held(&held).expect("in range");
@@ -290,7 +290,7 @@ fn other_handles_keep_the_pose_and_bring_the_same_end() {
 #[test]
 fn from_a_bent_surface_taken_as_rest_nothing_moves_until_a_handle_does() {
     let mesh = bar();
-    let (held, targets) = arc(&mesh, 4.0, 1.0);
+    let (held, targets) = arc(&mesh, 7.5, 1.0);
     let mut e = embedded(mesh, 60, &held);
     e.set_targets(&targets).expect("finite");
     (0..10).for_each(|_| _ = e.step());

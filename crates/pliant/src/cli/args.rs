@@ -89,7 +89,19 @@ pub(super) struct DeformOptions {
     #[arg(long, value_enum, default_value_t)]
     pub(super) method: Method,
 
-    /// How to minimize it
+    /// sr-arap: how much neighbors should turn alike [default: 0.02]
+    #[arg(long, value_name = "A", allow_negative_numbers = true)]
+    pub(super) alpha: Option<f64>,
+
+    /// embedded: nodes that carry the surface [default: 500]
+    #[arg(long, value_name = "N")]
+    pub(super) nodes: Option<usize>,
+
+    /// embedded: nodes that carry each vertex, from 2 to 16 [default: 4]
+    #[arg(long, value_name = "K")]
+    pub(super) node_neighbors: Option<usize>,
+
+    /// How to minimize it (embedded has its own way)
     #[arg(long, value_enum, default_value_t)]
     pub(super) solver: SolverChoice,
 
@@ -236,6 +248,10 @@ pub(super) enum Method {
     Rring,
     /// As rigid as possible: r = 1 everywhere
     Arap,
+    /// ARAP whose neighbors turn alike, too (Levi and Gotsman 2015)
+    SrArap,
+    /// Some hundred nodes carry the surface (Sumner, Schmid and Pauly 2007); handles are soft
+    Embedded,
 }
 
 impl Method {
@@ -244,6 +260,8 @@ impl Method {
         match self {
             Method::Rring => "rring",
             Method::Arap => "arap",
+            Method::SrArap => "sr-arap",
+            Method::Embedded => "embedded",
         }
     }
 }

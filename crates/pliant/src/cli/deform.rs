@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use glam::DVec3;
 use pliant_meshfile::{Format, MeshFile, SaveError, Warning};
-use pliant_solver::{Minimizer, Start, VertexId};
+use pliant_solver::{DeformationGraph, Method as Other, Minimizer, Start, VertexId};
 
 use super::args::{DeformOptions, Method, SolverChoice, StartChoice};
 use super::console::Console;
@@ -31,7 +31,7 @@ fn run_in_pool(options: &DeformOptions, console: &mut Console<'_>) -> Result<(),
     let mut job = load(options, console)?;
     let load_ms = milliseconds(clock);
 
-    let mut solution = solve(&job.problem, settings(options), console)
+    let mut solution = solve(&job.problem, &settings(options), console)
         .map_err(|source| surface::unsolvable(source, &options.mesh, &job.file.weld))?;
     solution.times.load = load_ms;
     check_finite(&solution.positions, &job.file)?;
@@ -67,13 +67,38 @@ fn check_options(options: &DeformOptions) -> Result<(), Failure> {
     if options.threads == Some(0) {
         return refuse("--threads", "0".to_owned(), "at least 1");
     }
-    if options.method == Method::Arap && options.rigidity.is_some() {
-        return Err(Failure::Usage(clap::Error::raw(
-            clap::error::ErrorKind::ArgumentConflict,
-            "--method arap is rigidity 1 everywhere and cannot be used with --rigidity\n",
-        )));
+    if options.alpha.is_some_and(|alpha| !(alpha >= 0.0 && alpha.is_finite())) {
+        return refuse("--alpha", options.alpha.unwrap_or_default().to_string(), "a number of at least 0");
     }
+    if options.nodes == Some(0) {
+        return refuse("--nodes", "0".to_owned(), "at least 1");
+    }
+    if let Some(k) = options.node_neighbors.filter(|k| !DeformationGraph::NEIGHBORS.contains(k)) {
+        return refuse("--node-neighbors", k.to_string(), "from 2 to 16");
+    }
+    check_method(options)?;
     check_paths(options)
+}
+
+/// Refuses options of other methods than the one chosen.
+fn check_method(options: &DeformOptions) -> Result<(), Failure> {
+    let method = options.method;
+    let conflict = match method {
+        Method::Arap if options.rigidity.is_some() => {
+            "--method arap is rigidity 1 everywhere and cannot be used with --rigidity".to_owned()
+        }
+        _ if method != Method::Rring && options.rigidity.is_some() => {
+            format!("--method {} knows no rigidity and cannot be used with --rigidity", method.name())
+        }
+        _ if method != Method::SrArap && options.alpha.is_some() => "--alpha needs --method sr-arap".to_owned(),
+        _ if method != Method::Embedded && options.nodes.is_some() => "--nodes needs --method embedded".to_owned(),
+        _ if method != Method::Embedded && options.node_neighbors.is_some() => {
+            "--node-neighbors needs --method embedded".to_owned()
+        }
+        _ => return Ok(()),
+    };
+    let kind = clap::error::ErrorKind::ArgumentConflict;
+    Err(Failure::Usage(clap::Error::raw(kind, format!("{conflict}\n"))))
 }
 
 fn check_paths(options: &DeformOptions) -> Result<(), Failure> {
@@ -123,7 +148,7 @@ fn load(options: &DeformOptions, console: &mut Console<'_>) -> Result<Job, Failu
     let handles = handles_file::read(&options.handles, &file)?;
     let ChosenRigidity { rigidity, is_explicit, warning } = match options.method {
         Method::Rring => rigidity::choose(options.rigidity.as_deref(), &file)?,
-        Method::Arap => rigidity::ones(&file),
+        Method::Arap | Method::SrArap | Method::Embedded => rigidity::ones(&file),
     };
     warnings.extend(warning);
     let rigidity_to_save = is_explicit.then(|| rigidity.as_slice().to_vec());
@@ -133,6 +158,14 @@ fn load(options: &DeformOptions, console: &mut Console<'_>) -> Result<Job, Failu
 
 fn settings(options: &DeformOptions) -> Settings {
     Settings {
+        other: match options.method {
+            Method::Rring | Method::Arap => None,
+            Method::SrArap => Some(Other::SrArap { alpha: options.alpha.unwrap_or(Other::ALPHA) }),
+            Method::Embedded => Some(Other::Embedded {
+                nodes: options.nodes.unwrap_or(Other::NODES),
+                neighbors: options.node_neighbors.unwrap_or(Other::NODE_NEIGHBORS),
+            }),
+        },
         weights: options.weights.into(),
         minimizer: match options.solver {
             SolverChoice::Lbfgs => Minimizer::Lbfgs,
@@ -179,12 +212,20 @@ fn warn_of_loose(loose: &[(usize, VertexId)], file: &MeshFile, warnings: &mut Ve
     }
 }
 
+/// How it was minimized.
+fn solver_name(options: &DeformOptions) -> &'static str {
+    match options.method {
+        Method::Embedded => "gauss-newton",
+        _ => options.solver.name(),
+    }
+}
+
 /// The report with everything known before the files are written.
 fn report(options: &DeformOptions, job: &Job, energies: Vec<f64>) -> DeformReport {
     DeformReport {
         mesh: MeshCounts::new(&job.file, &job.problem.mesh),
         method: options.method.name(),
-        solver: options.solver.name(),
+        solver: solver_name(options),
         weights: options.weights.name(),
         threads: rayon::current_num_threads(),
         rigidity: RigiditySummary::new(&job.problem.rigidity),

@@ -5,7 +5,8 @@ use std::time::Instant;
 
 use glam::DVec3;
 use pliant_solver::{
-    Analysis, LooseComponents, Mesh, Minimizer, Neighborhoods, Rigidity, SolveError, Solver, Start, VertexId, Weights,
+    Analysis, Deformer, LooseComponents, Mesh, Method, Minimizer, Neighborhoods, Rigidity, SolveError, Solver, Start,
+    VertexId, Weights,
 };
 
 use super::console::Console;
@@ -20,8 +21,10 @@ pub(super) struct Problem {
 }
 
 /// How it is solved.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Settings {
+    /// Another method than r-ring.
+    pub(super) other: Option<Method>,
     pub(super) weights: Weights,
     pub(super) minimizer: Minimizer,
     pub(super) start: Start,
@@ -40,9 +43,9 @@ const LBFGS_QUIET: usize = 3;
 impl Settings {
     /// Over how many iterations the decrease of the energy is measured.
     fn quiet(&self) -> usize {
-        match self.minimizer {
-            Minimizer::LocalGlobal => 1,
-            Minimizer::Lbfgs => LBFGS_QUIET,
+        match (&self.other, self.minimizer) {
+            (Some(Method::Embedded { .. }), _) | (_, Minimizer::LocalGlobal) => 1,
+            (_, Minimizer::Lbfgs) => LBFGS_QUIET,
         }
     }
 }
@@ -51,7 +54,7 @@ impl Settings {
 pub(super) struct Solution {
     /// Of every surface point.
     pub(super) positions: Vec<DVec3>,
-    /// Energy (eq. 1) after each iteration.
+    /// Energy after each iteration: eq. (1), or that of the other method.
     pub(super) energies: Vec<f64>,
     pub(super) converged: bool,
     /// Largest distance of a held vertex from its target.
@@ -63,12 +66,13 @@ pub(super) struct Solution {
 }
 
 /// Solves `problem`; the only failure is a system that cannot be set up.
-pub(super) fn solve(problem: &Problem, settings: Settings, console: &mut Console<'_>) -> Result<Solution, SolveError> {
+pub(super) fn solve(problem: &Problem, settings: &Settings, console: &mut Console<'_>) -> Result<Solution, SolveError> {
     let mut times = DeformTimes::default();
     let mut solver = prepare(problem, settings, &mut times, console)?;
     solver.set_targets(&problem.handles.targets)?;
-    let iterated = iterate(&mut solver, settings, &mut times, console);
-    let positions = solver.positions();
+    let iterated = iterate(&mut *solver, settings, &mut times, console);
+    let mut positions = vec![DVec3::ZERO; problem.mesh.n_vertices()];
+    solver.positions_into(&mut positions);
     let held = problem.handles.held.iter().zip(&problem.handles.targets);
     let errors = held.map(|(vertex, &target)| positions[vertex.index()].distance(target));
     Ok(Solution {
@@ -83,14 +87,23 @@ pub(super) fn solve(problem: &Problem, settings: Settings, console: &mut Console
 
 fn prepare(
     problem: &Problem,
-    settings: Settings,
+    settings: &Settings,
     times: &mut DeformTimes,
     console: &mut Console<'_>,
-) -> Result<Solver, SolveError> {
+) -> Result<Box<dyn Deformer>, SolveError> {
     console.progress(|| "analyzing the mesh".to_owned());
     let clock = Instant::now();
     let analysis = Arc::new(Analysis::new(problem.mesh.clone(), settings.weights));
     times.order = milliseconds(clock);
+
+    let held = &problem.handles.held;
+    if let Some(other) = &settings.other {
+        console.progress(|| "preparing the method".to_owned());
+        let clock = Instant::now();
+        let prepared = other.prepare(analysis, held, LooseComponents::KeepAtRest, settings.minimizer);
+        times.factorize = milliseconds(clock);
+        return prepared;
+    }
 
     console.progress(|| "finding neighborhoods".to_owned());
     let clock = Instant::now();
@@ -99,11 +112,10 @@ fn prepare(
 
     console.progress(|| "factorizing".to_owned());
     let clock = Instant::now();
-    let held = &problem.handles.held;
     let mut solver = Solver::new(analysis, neighborhoods, &problem.rigidity, held, LooseComponents::KeepAtRest)?;
     solver.set_minimizer(settings.minimizer);
     times.factorize = milliseconds(clock);
-    Ok(solver)
+    Ok(Box::new(solver))
 }
 
 struct Iterated {
@@ -112,7 +124,12 @@ struct Iterated {
 }
 
 /// Iterations until the stop rule of 3.2.3 or the last iteration allowed.
-fn iterate(solver: &mut Solver, settings: Settings, times: &mut DeformTimes, console: &mut Console<'_>) -> Iterated {
+fn iterate(
+    solver: &mut dyn Deformer,
+    settings: &Settings,
+    times: &mut DeformTimes,
+    console: &mut Console<'_>,
+) -> Iterated {
     let clock = Instant::now();
     let mut energies: Vec<f64> = Vec::new();
     let mut stage_ms = [Vec::new(), Vec::new(), Vec::new()];

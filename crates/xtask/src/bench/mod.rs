@@ -7,6 +7,7 @@
 //! | `stages` | every stage of the solver by size and r |
 //! | `kernels` | the parts of an iteration beside the memory's floor |
 //! | `learning` | rigidity from poses |
+//! | `methods` | embedded deformation and SR-ARAP |
 //! | `opening` | files, beside other readers |
 //! | `outside` | an iteration as anyone can time it, by the command line |
 //! | `descent` | how fast the energy falls, from rest and in a drag |
@@ -19,6 +20,7 @@ mod descent;
 mod kernels;
 mod learning;
 mod machine;
+mod methods;
 mod opening;
 mod outside;
 mod peers;
@@ -178,6 +180,7 @@ fn measure(options: &Options, program: Option<&Path>) -> Result<String, Failure>
     section("From rest", &descent::from_rest(&jumps, most)?);
     section(Part::Drag.title(), &dragged(options.quick)?);
     section("Learning", &learning::table(&bodies(&CUTS))?);
+    section("Other methods", &methods::table(&bodies(&CUTS[1..3]))?);
     section(Part::Opening.title(), &opening::table(options.quick, folder.path())?);
     if let Some(program) = program.filter(|_| options.peers) {
         section("Beside others", &peers::tables(program, &both, folder.path(), most)?);
@@ -237,7 +240,9 @@ mod tests {
     #[test]
     fn the_quick_run_writes_every_table() {
         let page = measure(&Options { quick: true, ..Options::default() }, None).expect("measured");
-        for title in ["What was measured", "Stages", "Kernels", "From rest", "A drag", "Learning", "Opening"] {
+        let titles =
+            ["What was measured", "Stages", "Kernels", "From rest", "A drag", "Learning", "Other methods", "Opening"];
+        for title in titles {
             let section = page.split("## ").find(|section| section.starts_with(title));
             let section = section.unwrap_or_else(|| panic!("no section {title} in\n{page}"));
             assert!(title == "What was measured" || section.contains("|\n| "), "no table in\n{section}");
