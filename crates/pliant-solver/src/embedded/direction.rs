@@ -5,12 +5,15 @@
 //! stretching that turning and moving hardly feel it: on the six unknowns of these, A is factored (an eighth of the work),
 //! on the six of stretching it is inverted node by node, and with both as preconditioner the conjugate gradients arrive
 //! in a few rounds at the step of the whole matrix.
+//!
+//! Seen from the nodes' own rotations, t included, the factored part changes only where neighbors turn against each
+//! other. So a factor serves for many steps, until the rounds tell that it is out of date.
 
 use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 
-use super::affine::{Affine, ZERO, add_scaled, dot};
+use super::affine::{Affine, ZERO, add_scaled, dot, shift};
 use super::energy::Terms;
 use super::frames::{Frame, Local, STRETCHES, TURNS, basis, coefficients, upper_left};
 use super::quadratic::{Block, Quadratic};
@@ -25,6 +28,9 @@ const DAMPING: f64 = 1e-8;
 /// The conjugate gradients end when the error, measured by the preconditioner, is that part of the first: Gauss–Newton
 /// itself is no more exact, and a round costs half as much as the factorization.
 const ENOUGH: f64 = 1e-2;
+/// Rounds from which on the factor is renewed in the next step: a factorization costs as much as some six rounds, and a
+/// new factor needs four to seven.
+const OUT_OF_DATE: usize = 9;
 /// Or after so many rounds; the step so far lowers E none the less.
 const MOST_ROUNDS: usize = 40;
 
@@ -38,11 +44,15 @@ pub(super) struct Direction {
     values: Vec<f64>,
     frames: Vec<Frame>,
     jacobians: Vec<[Local; 6]>,
+    /// What resists the turning of every node alone.
+    turnings: Vec<[[f64; TURNS]; TURNS]>,
     /// Cholesky factors of the stretching of every node.
     stretches: Vec<Stretch>,
     rows: Vec<Quad>,
     /// Residual, preconditioned residual, search direction, its product.
     vectors: [Vec<Affine>; 4],
+    /// Whether the system is to be factored anew.
+    is_due: bool,
     /// Rounds of the last step.
     pub(super) rounds: usize,
 }
@@ -60,9 +70,11 @@ impl Direction {
             slots,
             frames: vec![rest; n],
             jacobians: vec![[[0.0; 9]; 6]; n],
+            turnings: vec![[[0.0; TURNS]; TURNS]; n],
             stretches: vec![[[0.0; STRETCHES]; STRETCHES]; n],
             rows: vec![Quad::ZERO; n * ROWS],
             vectors: std::array::from_fn(|_| vec![ZERO; n]),
+            is_due: true,
             rounds: 0,
         })
     }
@@ -79,22 +91,44 @@ impl Direction {
         (x, gradient): (&[Affine], &[Affine]),
         step: &mut [Affine],
     ) -> bool {
-        self.prepare(terms, quadratic, x);
-        self.system.factor(&self.values).is_ok() && self.solve(terms, quadratic, gradient, step)
+        self.look(quadratic, x);
+        if self.is_due {
+            self.assemble(terms, quadratic);
+            if self.system.factor(&self.values).is_err() {
+                return false;
+            }
+        }
+        let found = self.solve(terms, quadratic, gradient, step);
+        self.is_due = self.rounds >= OUT_OF_DATE;
+        found
     }
 
-    /// Looks at every node from its rotation, and assembles the preconditioner.
-    fn prepare(&mut self, terms: &Terms, quadratic: &Quadratic, x: &[Affine]) {
-        let n = x.len();
+    /// The quadratic part is another: the factor is of no use any more.
+    pub(super) fn forget(&mut self) {
+        self.is_due = true;
+    }
+
+    /// Looks at every node from its rotation.
+    fn look(&mut self, quadratic: &Quadratic, x: &[Affine]) {
         for (j, (x, block)) in x.iter().zip(&quadratic.diagonal).enumerate() {
             let frame = Frame::of(x, self.frames[j].turn);
             let (jacobian, own) = frame.own(block);
             let mut stretch: Stretch = std::array::from_fn(|a| std::array::from_fn(|b| own[TURNS + a][TURNS + b]));
             (0..STRETCHES).for_each(|a| stretch[a][a] *= 1.0 + DAMPING);
             self.stretches[j] = cholesky(stretch);
+            self.turnings[j] = std::array::from_fn(|a| std::array::from_fn(|b| own[a][b]));
             (self.frames[j], self.jacobians[j]) = (frame, jacobian);
-            let mut rows = between(block, &frame, &frame);
-            (0..TURNS).for_each(|a| (0..TURNS).for_each(|b| rows[a][b] = own[a][b]));
+        }
+    }
+
+    /// The system of turns and t.
+    fn assemble(&mut self, terms: &Terms, quadratic: &Quadratic) {
+        let n = self.frames.len();
+        for (j, block) in quadratic.diagonal.iter().enumerate() {
+            let mut rows = between(block, &self.frames[j], &self.frames[j]);
+            for (row, turning) in rows.iter_mut().zip(&self.turnings[j]) {
+                row[..TURNS].copy_from_slice(turning);
+            }
             let mut slots = self.slots[j * ROWS * (ROWS - 1) / 2..].iter();
             for (a, row) in rows.iter().enumerate() {
                 self.values[self.pattern.diagonal(j * ROWS + a)] = row[a] * (1.0 + DAMPING);
@@ -150,9 +184,10 @@ impl Direction {
         for ((((r, z), rows), frame), stretch) in r.iter().zip(&mut *z).zip(rows).zip(&self.frames).zip(&self.stretches)
         {
             let mut local = frame.local(r);
+            let pull = (frame.q.transpose() * shift(r)).to_array();
             for a in 0..TURNS {
                 rows[a].0[0] = local[a];
-                rows[TURNS + a].0[0] = r[a][3];
+                rows[TURNS + a].0[0] = pull[a];
             }
             local[..TURNS].fill(0.0);
             solve_cholesky(stretch, &mut local[TURNS..]);
@@ -163,29 +198,33 @@ impl Direction {
             let mut local = [0.0; TURNS + STRETCHES];
             (0..TURNS).for_each(|a| local[a] = rows[a].0[0]);
             let turned = frame.change(&local);
-            for (c, (z, turned)) in z.iter_mut().zip(&turned).enumerate() {
+            let moved = frame.q * DVec3::from_array(std::array::from_fn(|c| rows[TURNS + c].0[0]));
+            for ((z, turned), moved) in z.iter_mut().zip(&turned).zip(moved.to_array()) {
                 (0..3).for_each(|a| z[a] += turned[a]);
-                z[3] = rows[TURNS + c].0[0];
+                z[3] = moved;
             }
         }
     }
 }
 
 /// The block of the factored system for nodes j and k, from theirs of the quadratic part: turns and t of j against turns
-/// and t of k.
+/// and t of k, each seen from its own node.
 fn between(block: &Block, j: &Frame, k: &Frame) -> [[f64; ROWS]; ROWS] {
     let l = upper_left(block);
+    // Q_kᵀ Q_j.
     let turn = k.q.transpose() * j.q;
+    let back = turn.transpose();
     let right = DVec3::new(block[0][3], block[1][3], block[2][3]);
     let below = DVec3::new(block[3][0], block[3][1], block[3][2]);
     let mut rows = [[0.0; ROWS]; ROWS];
     for m in 0..TURNS {
         // tr(Q_j B_m L B_nᵀ Q_kᵀ)
         rows[m][..TURNS].copy_from_slice(&coefficients(turn * basis(m) * l)[..TURNS]);
-        rows[m][TURNS..].copy_from_slice(&(j.q * (basis(m) * right)).to_array());
-        let pulled = (k.q * (basis(m) * below)).to_array();
+        rows[m][TURNS..].copy_from_slice(&(turn * (basis(m) * right)).to_array());
+        let pulled = (back * (basis(m) * below)).to_array();
         (0..3).for_each(|c| rows[TURNS + c][m] = pulled[c]);
-        rows[TURNS + m][TURNS + m] = block[3][3];
+        // t_jᵀ t_k in the coordinates of the box.
+        (0..3).for_each(|c| rows[TURNS + m][TURNS + c] = block[3][3] * back.col(c)[m]);
     }
     rows
 }

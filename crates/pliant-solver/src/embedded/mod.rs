@@ -77,7 +77,7 @@ const KEPT: f64 = 1e-4;
 /// |---|---|
 /// | `new`, `set_held` | structure of the system, if other components are held; else copies |
 /// | `set_targets`, `start` | copies; up to four steps for [`Start::Auto`](crate::Start::Auto) |
-/// | `step` | a factorization of six unknowns a node, and some ten solves; nothing depends on the number of vertices |
+/// | `step` | some solves with six unknowns a node, at times a factorization; nothing depends on the number of vertices |
 /// | `positions_into` | a pass over the vertices |
 /// | `set_rest` | a pass over the vertices |
 pub struct Embedded {
@@ -378,6 +378,9 @@ impl Embedded {
         }
         self.terms.held = terms;
         self.quadratic.assemble(&self.terms);
+        if let Some(direction) = &mut self.direction {
+            direction.forget();
+        }
     }
 
     fn refresh(&mut self) {
