@@ -239,6 +239,42 @@ mod tests {
     }
 
     #[test]
+    fn blocks_are_factored_as_the_rows_they_are() {
+        const SIZE: u32 = 4;
+        let (n, mut random) = (200u32, Random::new(9));
+        let points: Vec<DVec3> = (0..n).map(|_| random.vector()).collect();
+        let links: Vec<[u32; 2]> = (1..n).flat_map(|i| [[i / 2, i], [i / 3, i]]).filter(|[a, b]| a < b).collect();
+        let links: Vec<[u32; 2]> = std::collections::BTreeSet::from_iter(links).into_iter().collect();
+        let (pattern, slots) = Pattern::of_blocks(&points, &links, SIZE);
+        let pairs = (n * SIZE * (SIZE - 1) / 2) as usize;
+        assert_eq!(slots.len(), pairs + links.len() * (SIZE * SIZE) as usize);
+        let mut values = vec![0.0; pattern.n_values()];
+        slots.iter().for_each(|&slot| values[slot as usize] = random.signed());
+        // A row has some 30 other entries at most, below 1 each.
+        (0..(n * SIZE) as usize).for_each(|row| values[pattern.diagonal(row)] = 100.0);
+        let b: Vec<Quad> = (0..n * SIZE).map(|_| Quad::from(random.vector())).collect();
+        let pattern = Arc::new(pattern);
+        let mut system = System::new(pattern.clone()).expect("small");
+        system.factor(&values).expect("dominant");
+        let mut x = b.clone();
+        system.solve_in_place(&mut x);
+        for (i, (found, b)) in pattern.times(&values, &x).into_iter().zip(&b).enumerate() {
+            // A condition number of 2, some 30 sums a row.
+            assert!(found.distance(b.xyz()) < 1e-13, "row {i}: got {found}, expected {b:?}");
+        }
+        // The place of an entry is that of its rows: the block of a link stands where its rows and columns are.
+        let at = slots[pairs..].chunks_exact((SIZE * SIZE) as usize);
+        for (&[i, j], slots) in links.iter().zip(at) {
+            for (ab, &slot) in slots.iter().enumerate() {
+                let (a, b) = (ab as u32 / SIZE, ab as u32 % SIZE);
+                let column = (i * SIZE + a) as usize;
+                let range = pattern.columns[column]..pattern.columns[column + 1];
+                assert!(range.contains(&slot) && pattern.rows[slot as usize] == j * SIZE + b, "link {i} {j}, {a} {b}");
+            }
+        }
+    }
+
+    #[test]
     fn a_pivot_that_is_not_positive_is_reported() {
         for n in [5, 507] {
             let (mut system, values) = path(n, -1.0);
