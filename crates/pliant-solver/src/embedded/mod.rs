@@ -431,7 +431,7 @@ impl Embedded {
     }
 }
 
-/// x after a part of a change, with R moved along rotations: Q exp(ω) (P + S + [ω] (I − P)), which agrees with the change to
+/// x after a part of a change, with R moved along rotations: Q exp(ω) (P + S + W (I − P)), W ω's matrix, which agrees to
 /// first order.
 fn turned(x: &Affine, change: &Affine, frame: &Frame, length: f64) -> Affine {
     let local = frame.local(change);
