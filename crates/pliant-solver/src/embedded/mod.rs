@@ -24,7 +24,7 @@
 //! | `sampling.rs`, `graph.rs` | nodes, weights, links | once a mesh |
 //! | `energy.rs`, `quadratic.rs` | E, its gradient, the constant part of JᵀJ | the latter when held vertices change |
 //! | `frames.rs`, `direction.rs` | the step of Gauss–Newton | every step |
-//! | `apply.rs` | from nodes to vertices | when positions are asked for |
+//! | `apply.rs`, `surface.rs` | from nodes to vertices | when positions are asked for |
 //!
 //! # Differences from the paper
 //! - Which nodes carry a vertex is decided along the surface, not through space (see `graph.rs`). The weights are the
@@ -42,6 +42,7 @@ mod graph;
 mod quadratic;
 mod sampling;
 mod start;
+mod surface;
 #[cfg(test)]
 mod tests;
 
@@ -56,7 +57,7 @@ use crate::linear::FactorError;
 use crate::mesh::is_usable;
 use crate::rigid_fit::RigidMotion;
 use crate::{Analysis, LooseComponents, SolveError, StepReport, VertexId};
-use affine::{Affine, IDENTITY, linear, shift};
+use affine::{Affine, IDENTITY, shift};
 use direction::Direction;
 use energy::{HeldTerms, Terms};
 use frames::Frame;
@@ -281,19 +282,6 @@ impl Embedded {
         self.terms.largest_error(&self.x) * self.graph.size
     }
 
-    /// Positions of all vertices written into `out`; entries beyond the vertices stay.
-    pub fn positions_into(&self, out: &mut [DVec3]) {
-        let n = self.analysis.layout.n_vertices().min(out.len());
-        apply::apply(&self.graph, &self.table(), self.rest_positions(), &mut out[..n]);
-    }
-
-    /// Positions of all vertices.
-    pub fn positions(&self) -> Vec<DVec3> {
-        let mut positions = vec![DVec3::ZERO; self.analysis.layout.n_vertices()];
-        self.positions_into(&mut positions);
-        positions
-    }
-
     /// The graph in use.
     pub fn graph(&self) -> &Arc<DeformationGraph> {
         &self.graph
@@ -313,15 +301,6 @@ impl Embedded {
     #[cfg(test)]
     pub(crate) fn rounds(&self) -> usize {
         self.direction.as_ref().map_or(0, |direction| direction.rounds)
-    }
-
-    fn rest_positions(&self) -> &[DVec3] {
-        self.rest.as_deref().unwrap_or(self.analysis.mesh().positions())
-    }
-
-    fn rest_of_node(&self, node: u32) -> DVec3 {
-        let layout = &self.analysis.layout;
-        self.rest_positions()[layout.to_caller[self.graph.nodes[node as usize] as usize] as usize]
     }
 
     /// The rigid motion that fits the held vertices at these places in the list best.
@@ -386,48 +365,6 @@ impl Embedded {
     fn refresh(&mut self) {
         let energy = self.terms.energy(&self.x);
         self.energy = if energy <= self.terms.floor() { 0.0 } else { energy };
-    }
-
-    /// What every node does to vertices, see `apply.rs`.
-    fn table(&self) -> Vec<Affine> {
-        let (center, size) = (self.graph.center, self.graph.size);
-        let mut table = vec![affine::ZERO; self.graph.n_nodes()];
-        for (&node, x) in self.active.iter().zip(&self.x) {
-            let g = self.rest_of_node(node) - center;
-            table[node as usize] = apply::displacement(linear(x), shift(x) * size, g);
-        }
-        if self.held.loose_follow() && !self.held.loose_reported.is_empty() {
-            self.follow_groups(&mut table);
-        }
-        table
-    }
-
-    /// Nodes of loose components take part in the motion of the nearest group.
-    fn follow_groups(&self, table: &mut [Affine]) {
-        let groups = 0..self.held.by_group.len();
-        let motions: Vec<RigidMotion> =
-            groups.map(|group| self.fit(self.held.by_group.list(group), DQuat::IDENTITY)).collect();
-        let component = &self.analysis.layout.component;
-        let mut motion_of = vec![None; self.held.by_component.len()];
-        for (vertices, group) in self.held.loose_parts() {
-            motion_of[component[vertices.start] as usize] = Some(motions[group]);
-        }
-        for (node, entry) in table.iter_mut().enumerate() {
-            if let Some(motion) = motion_of[component[self.graph.nodes[node] as usize] as usize] {
-                let p = self.rest_of_node(node as u32);
-                let r = DMat3::from_quat(motion.rotation);
-                *entry = apply::displacement(r, motion.apply(p) - p, p - self.graph.center);
-            }
-        }
-    }
-
-    /// Where one vertex is.
-    fn moved(&self, table: &[Affine], v: usize) -> DVec3 {
-        let p = self.rest_positions()[v];
-        let arm = p - self.graph.center;
-        self.graph
-            .carriers_of(v)
-            .fold(p, |sum, (node, w)| sum + affine::times(&table[node as usize], &[arm.x, arm.y, arm.z, 1.0]) * w)
     }
 }
 

@@ -71,7 +71,8 @@ pub(super) struct DeformReport {
     pub(super) rigidity: RigiditySummary,
     pub(super) converged: bool,
     pub(super) iterations: usize,
-    /// Energy (eq. 1) after each iteration, in the file's units squared.
+    /// Energy after each iteration: eq. (1) in the file's units squared, or that of another method; embedded deformation
+    /// measures in extents of the surface.
     pub(super) energies: Vec<f64>,
     /// Largest distance of a held vertex from its target, in the file's units.
     pub(super) max_handle_error: f64,
