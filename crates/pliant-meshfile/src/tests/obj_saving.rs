@@ -161,3 +161,19 @@ fn tobj_reads_the_same_geometry() {
         }
     }
 }
+
+#[test]
+fn rounding_is_no_move() {
+    let text = "v -0.0 1 2e0\nv 3.000 0 0\nv 0 3 0.5\nf 1 2 3\n";
+    let file = obj(text);
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let to = folder.path().join("same.obj");
+    let mut points = file.points();
+    points.iter_mut().for_each(|p| *p += DVec3::splat(3e-16));
+    file.save(&to, &points, None).expect("saved");
+    assert_eq!(std::fs::read_to_string(&to).expect("read"), text);
+    points[1].x += 1e-9;
+    file.save(&to, &points, None).expect("saved");
+    let saved = std::fs::read_to_string(&to).expect("read");
+    assert!(saved.starts_with("v -0.0 1 2e0\nv 3.000000001 0"), "{saved}");
+}

@@ -30,6 +30,7 @@ mod table;
 
 use crate::assets;
 use crate::failure::Failure;
+use clap::ValueEnum;
 use machine::Machine;
 use pliant_solver::Rigidity;
 use scene::Scene;
@@ -60,27 +61,41 @@ pub(crate) struct Options {
     note: Option<String>,
 }
 
-/// What can be measured by itself.
-#[derive(clap::ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
+/// A table, which can be measured by itself.
+#[derive(ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
 enum Part {
-    /// How fast files are opened
-    Opening,
+    /// Every stage of the solver by size and r
+    Stages,
+    /// The parts of an iteration beside the memory's floor
+    Kernels,
+    /// An iteration timed by the command line
+    Outside,
+    /// How fast the energy falls after a jump
+    Rest,
     /// How fast the energy falls in a drag
     Drag,
+    /// Rigidity from poses
+    Learning,
+    /// Embedded deformation and SR-ARAP
+    Methods,
+    /// How fast files are opened
+    Opening,
+    /// libigl and Open3D beside it
+    Peers,
 }
 
 impl Part {
     fn title(self) -> &'static str {
         match self {
-            Part::Opening => "Opening",
+            Part::Stages => "Stages",
+            Part::Kernels => "Kernels",
+            Part::Outside => "An iteration from outside",
+            Part::Rest => "From rest",
             Part::Drag => "A drag",
-        }
-    }
-
-    fn text(self, quick: bool, folder: &Path) -> Result<String, Failure> {
-        match self {
-            Part::Opening => opening::table(quick, folder),
-            Part::Drag => dragged(quick),
+            Part::Learning => "Learning",
+            Part::Methods => "Other methods",
+            Part::Opening => "Opening",
+            Part::Peers => "Beside others",
         }
     }
 }
@@ -106,8 +121,11 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
         None => measure(options, program.is_file().then_some(&*program))?,
         Some(part) => {
             let old = fs::read_to_string(&page).map_err(|source| Failure::File { path: page.clone(), source })?;
-            let text = part.text(options.quick, temporary_folder()?.path())?;
-            with_section(&old, part.title(), &text)
+            let bench = Bench::new(options, program.is_file().then_some(&*program))?;
+            match bench.text(part)? {
+                Some(text) => with_section(&old, part.title(), &text),
+                None => return Err(Failure::Stopped { program: program.display().to_string() }),
+            }
         }
     };
     let output = options.output.clone().unwrap_or(page);
@@ -150,44 +168,70 @@ fn with_section(page: &str, title: &str, text: &str) -> String {
 
 /// The text of the page; without `program` what needs the command line is left out.
 fn measure(options: &Options, program: Option<&Path>) -> Result<String, Failure> {
-    let folder = temporary_folder()?;
-    let machine = Machine::measure();
+    let bench = Bench::new(options, program)?;
     let mut page = String::from(
         "# Performance\n\n\
          Made by `cargo xtask bench`. Times are medians of several repetitions, beside whatever else the machine \
          did: ratios say more than times.\n\n",
     );
-    let mut section = |title: &str, text: &str| page.push_str(&format!("## {title}\n\n{text}"));
-    let mut about = machine.description();
+    let mut about = bench.machine.description();
     for line in [&options.note, &Some(MESHES.to_owned())].into_iter().flatten() {
         about = format!("{about}\n\n{line}");
     }
-    section("What was measured", &format!("{about}\n\n"));
-
-    let scenes = scenes(options);
-    section("Stages", &stages::tables(&scenes)?);
-    section("Kernels", &kernels::table(&scenes, machine.bandwidth[1])?);
-    let bodies = |cuts: &[u32]| -> Vec<&Scene> {
-        let is_wanted = |scene: &Scene| options.quick || cuts.iter().any(|&c| scene.is_body_of(c));
-        scenes.iter().map(|(scene, _)| scene).filter(|scene| is_wanted(scene)).collect()
-    };
-    if let Some(program) = program {
-        section("An iteration from outside", &outside::table(program, &bodies(&CUTS[1..4]), folder.path())?);
-    }
-    let most = if options.quick { 50 } else { MOST_ITERATIONS };
-    let both = bodies(&[CUTS[1], CUTS[3]]);
-    let jumps: Vec<_> = both.iter().flat_map(|&scene| [(scene, 1), (scene, 10)]).collect();
-    section("From rest", &descent::from_rest(&jumps, most)?);
-    section(Part::Drag.title(), &dragged(options.quick)?);
-    section("Learning", &learning::table(&bodies(&CUTS))?);
-    section("Other methods", &methods::table(&bodies(&CUTS[1..3]))?);
-    section(Part::Opening.title(), &opening::table(options.quick, folder.path())?);
-    if let Some(program) = program.filter(|_| options.peers) {
-        section("Beside others", &peers::tables(program, &both, folder.path(), most)?);
+    page.push_str(&format!("## What was measured\n\n{about}\n\n"));
+    for &part in Part::value_variants() {
+        if part != Part::Peers || options.peers {
+            let text = bench.text(part)?;
+            page.extend(text.map(|text| format!("## {}\n\n{text}", part.title())));
+        }
     }
     page.truncate(page.trim_end().len());
     page.push('\n');
     Ok(page)
+}
+
+/// What all tables need.
+struct Bench<'a> {
+    options: &'a Options,
+    program: Option<&'a Path>,
+    machine: Machine,
+    folder: tempfile::TempDir,
+    scenes: Vec<(Scene, Vec<u16>)>,
+}
+
+impl<'a> Bench<'a> {
+    fn new(options: &'a Options, program: Option<&'a Path>) -> Result<Bench<'a>, Failure> {
+        let (machine, folder, scenes) = (Machine::measure(), temporary_folder()?, scenes(options));
+        Ok(Bench { options, program, machine, folder, scenes })
+    }
+
+    /// The text of a part; none where it needs the command line and there is none.
+    fn text(&self, part: Part) -> Result<Option<String>, Failure> {
+        let (folder, quick) = (self.folder.path(), self.options.quick);
+        let most = if quick { 50 } else { MOST_ITERATIONS };
+        let both = || self.bodies(&[CUTS[1], CUTS[3]]);
+        Ok(Some(match (part, self.program) {
+            (Part::Stages, _) => stages::tables(&self.scenes)?,
+            (Part::Kernels, _) => kernels::table(&self.scenes, self.machine.bandwidth[1])?,
+            (Part::Outside, Some(program)) => outside::table(program, &self.bodies(&CUTS[1..4]), folder)?,
+            (Part::Rest, _) => {
+                let jumps: Vec<_> = both().into_iter().flat_map(|scene| [(scene, 1), (scene, 10)]).collect();
+                descent::from_rest(&jumps, most)?
+            }
+            (Part::Drag, _) => dragged(quick)?,
+            (Part::Learning, _) => learning::table(&self.bodies(&CUTS))?,
+            (Part::Methods, _) => methods::table(&self.bodies(&CUTS[1..3]))?,
+            (Part::Opening, _) => opening::table(quick, folder)?,
+            (Part::Peers, Some(program)) => peers::tables(program, &both(), folder, most)?,
+            (Part::Outside | Part::Peers, None) => return Ok(None),
+        }))
+    }
+
+    /// The bodies of some sizes.
+    fn bodies(&self, cuts: &[u32]) -> Vec<&Scene> {
+        let is_wanted = |scene: &&Scene| self.options.quick || cuts.iter().any(|&c| scene.is_body_of(c));
+        self.scenes.iter().map(|(scene, _)| scene).filter(is_wanted).collect()
+    }
 }
 
 const MESHES: &str = "*Body*: a bumpy ellipsoid, irregular and Delaunay, its ends held (an eighth of its vertices) and \
