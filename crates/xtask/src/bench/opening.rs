@@ -19,6 +19,16 @@ const SIDE_IF_QUICK: u32 = 40;
 /// Runs of each reader, of which the median is told.
 const RUNS: usize = 5;
 
+/// A reader and its name.
+type Reader<'a> = (&'a str, &'a (dyn Fn(&[u8]) + Sync));
+
+/// A file in memory.
+struct File {
+    name: &'static str,
+    format: Format,
+    bytes: Vec<u8>,
+}
+
 /// A row for every file and reader.
 pub(crate) fn table(quick: bool, folder: &Path) -> Result<String, Failure> {
     let sheet = Sheet::new(if quick { SIDE_IF_QUICK } else { SIDE });
@@ -26,7 +36,7 @@ pub(crate) fn table(quick: bool, folder: &Path) -> Result<String, Failure> {
     let one =
         one.map_err(|source| Failure::Start { program: "a thread".into(), source: std::io::Error::other(source) })?;
     let mut table = Table::new(2, &["file", "reader", "MB", "ms", "MB/s", "million vertices/s", "speed / other's"]);
-    for (name, format, bytes) in sheet.files(folder)? {
+    for File { name, format, bytes } in sheet.files(folder)? {
         eprintln!("opening: {name}, {} vertices", count(sheet.positions.len()));
         let other: (&str, fn(&[u8])) = match format {
             Format::Obj => ("tobj", with_tobj),
@@ -36,8 +46,7 @@ pub(crate) fn table(quick: bool, folder: &Path) -> Result<String, Failure> {
             black_box(from_bytes(bytes, format, name)).expect("made by this program");
         };
         let on_one = |bytes: &[u8]| one.install(|| own(bytes));
-        let readers: [(&str, &(dyn Fn(&[u8]) + Sync)); 3] =
-            [("Pliant", &own), ("Pliant, one thread", &on_one), (other.0, &other.1)];
+        let readers: [Reader<'_>; 3] = [("Pliant", &own), ("Pliant, one thread", &on_one), (other.0, &other.1)];
         let times = in_turn(&readers, &bytes);
         for ((reader, _), time) in readers.iter().zip(&times) {
             let per_second = |amount: f64| digits(amount / 1e6 / time.as_secs_f64());
@@ -64,7 +73,7 @@ pub(crate) fn table(quick: bool, folder: &Path) -> Result<String, Failure> {
 }
 
 /// The median time of each reader.
-fn in_turn(readers: &[(&str, &(dyn Fn(&[u8]) + Sync))], bytes: &[u8]) -> Vec<Duration> {
+fn in_turn(readers: &[Reader<'_>], bytes: &[u8]) -> Vec<Duration> {
     let mut times = vec![Vec::new(); readers.len()];
     for _ in 0..RUNS {
         for ((_, read), times) in readers.iter().zip(&mut times) {
@@ -77,7 +86,9 @@ fn in_turn(readers: &[(&str, &(dyn Fn(&[u8]) + Sync))], bytes: &[u8]) -> Vec<Dur
 fn with_tobj(mut bytes: &[u8]) {
     let options = tobj::LoadOptions { triangulate: true, ..tobj::LoadOptions::default() };
     let no_materials = |_: &Path| Ok((Vec::new(), Default::default()));
-    black_box(tobj::load_obj_buf(&mut bytes, &options, no_materials)).expect("tobj reads what this program wrote");
+    let (models, materials) =
+        tobj::load_obj_buf(&mut bytes, &options, no_materials).expect("tobj reads what this program wrote");
+    black_box((models, materials.is_ok()));
 }
 
 fn with_gltf(bytes: &[u8]) {
@@ -117,15 +128,16 @@ impl Sheet {
     }
 
     /// The same sheet in files of several kinds.
-    fn files(&self, folder: &Path) -> Result<Vec<(&'static str, Format, Vec<u8>)>, Failure> {
+    fn files(&self, folder: &Path) -> Result<[File; 3], Failure> {
         let path = folder.join("sheet.glb");
         let mesh = MeshFile::from_triangles("sheet", self.positions.clone(), self.triangles.clone());
         mesh.save(&path, &mesh.points(), None).map_err(|source| Failure::Sample { name: "sheet", source })?;
         let glb = std::fs::read(&path).map_err(|source| Failure::File { path, source })?;
-        Ok(vec![
-            ("OBJ: v, f", Format::Obj, self.obj(false).into_bytes()),
-            ("OBJ: v, vt, vn, f", Format::Obj, self.obj(true).into_bytes()),
-            ("GLB: positions, normals", Format::Glb, glb),
+        let obj = |name, with| File { name, format: Format::Obj, bytes: self.obj(with).into_bytes() };
+        Ok([
+            obj("OBJ: v, f", false),
+            obj("OBJ: v, vt, vn, f", true),
+            File { name: "GLB: positions, normals", format: Format::Glb, bytes: glb },
         ])
     }
 
