@@ -196,6 +196,9 @@ fn numbers_out_of_range_are_refused() {
     Bench::new().refuses(&["--max-iterations", "0"], &["--max-iterations"]);
     Bench::new().refuses(&["--tolerance", "-1"], &["--tolerance"]);
     Bench::new().refuses(&["--tolerance", "nan"], &["--tolerance"]);
+    Bench::new().refuses(&["--method", "sr-arap", "--alpha", "-1"], &["--alpha"]);
+    Bench::new().refuses(&["--method", "embedded", "--nodes", "0"], &["--nodes"]);
+    Bench::new().refuses(&["--method", "embedded", "--node-neighbors", "1"], &["--node-neighbors"]);
     Bench::new().refuses(&["--threads", "0"], &["--threads"]);
 }
 

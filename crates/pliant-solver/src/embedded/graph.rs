@@ -15,7 +15,7 @@ use rayon::prelude::*;
 use super::sampling::farthest_points;
 use crate::Analysis;
 use crate::analysis::Layout;
-use crate::kernels::parallel::CHUNK;
+use crate::kernels::parallel::{CHUNK, on_pool};
 
 /// Steps from cell to cell within which nodes are looked at: there are some 18 nodes within two.
 const STEPS: usize = 2;
@@ -39,15 +39,20 @@ pub struct DeformationGraph {
 }
 
 impl DeformationGraph {
+    /// How many nodes there may be, were it not for more components: with that many, sampling a million vertices takes
+    /// half a minute, and a step a second.
+    pub const NODES: RangeInclusive<usize> = 1..=20_000;
     /// How many nodes may carry a vertex: with one there would be no transition, and more than some change little.
     pub const NEIGHBORS: RangeInclusive<usize> = 2..=16;
 
-    /// `n_nodes` nodes (not more than there are vertices, and at least one for every component), `k` of which carry a
+    /// `n_nodes` nodes (not more than there are vertices or [`DeformationGraph::NODES`] allows, and at least one for every
+    /// component), `k` of which carry a
     /// vertex, brought into [`DeformationGraph::NEIGHBORS`].
     pub fn new(analysis: &Analysis, n_nodes: usize, k: usize) -> DeformationGraph {
         let layout = &analysis.layout;
         let k = k.clamp(*Self::NEIGHBORS.start(), MOST_NEIGHBORS);
-        let nodes = farthest_points(layout, n_nodes);
+        let n_nodes = n_nodes.min(*Self::NODES.end());
+        let nodes = on_pool(layout.n_vertices(), || farthest_points(layout, n_nodes));
         let cells = cells(layout, &nodes);
         let pairs = touching(layout, &cells);
         let candidates = candidates(&pairs, nodes.len(), k);

@@ -93,7 +93,7 @@ pub(super) struct DeformOptions {
     #[arg(long, value_name = "A", allow_negative_numbers = true)]
     pub(super) alpha: Option<f64>,
 
-    /// embedded: nodes that carry the surface [default: 500]
+    /// embedded: nodes that carry the surface, at most 20000 [default: 500]
     #[arg(long, value_name = "N")]
     pub(super) nodes: Option<usize>,
 

@@ -70,8 +70,8 @@ fn check_options(options: &DeformOptions) -> Result<(), Failure> {
     if options.alpha.is_some_and(|alpha| !(alpha >= 0.0 && alpha.is_finite())) {
         return refuse("--alpha", options.alpha.unwrap_or_default().to_string(), "a number of at least 0");
     }
-    if options.nodes == Some(0) {
-        return refuse("--nodes", "0".to_owned(), "at least 1");
+    if let Some(nodes) = options.nodes.filter(|nodes| !DeformationGraph::NODES.contains(nodes)) {
+        return refuse("--nodes", nodes.to_string(), "from 1 to 20000");
     }
     if let Some(k) = options.node_neighbors.filter(|k| !DeformationGraph::NEIGHBORS.contains(k)) {
         return refuse("--node-neighbors", k.to_string(), "from 2 to 16");
