@@ -245,7 +245,8 @@ mod tests {
         let points: Vec<DVec3> = (0..n).map(|_| random.vector()).collect();
         let links: Vec<[u32; 2]> = (1..n).flat_map(|i| [[i / 2, i], [i / 3, i]]).filter(|[a, b]| a < b).collect();
         let links: Vec<[u32; 2]> = std::collections::BTreeSet::from_iter(links).into_iter().collect();
-        let (pattern, slots) = Pattern::of_blocks(&points, &links, SIZE);
+        let (ordered, slots) = Ordered::of_blocks(&points, &links, SIZE);
+        let pattern = ordered.analyzed();
         let pairs = (n * SIZE * (SIZE - 1) / 2) as usize;
         assert_eq!(slots.len(), pairs + links.len() * (SIZE * SIZE) as usize);
         let mut values = vec![0.0; pattern.n_values()];
