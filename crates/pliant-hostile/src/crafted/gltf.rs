@@ -57,6 +57,7 @@ fn sound() -> Vec<Case> {
     }
     cases.extend(changed("/scenes", Value::Null, "scene names scene 0, the file has 0"));
     cases.extend(changed("/materials", Value::Null, "material names material 0, the file has 0"));
+    cases.extend(changed("/extensionsRequired", json!(7), N_VERTICES));
     cases.extend(changed("/extensionsUsed", json!(["KHR_unheard_of"]), N_VERTICES));
     cases.extend(changed("/extras", json!({"deep": {"er": [null, 1e-300, "\u{0}\u{ffff}"]}}), N_VERTICES));
     cases
@@ -243,7 +244,6 @@ fn types() -> Vec<Case> {
     for (pointer, expected) in [
         ("/meshes", "meshes: is not a list"),
         ("/nodes", "nodes: is not a list"),
-        ("/extensionsRequired", "extensionsRequired: is not a list"),
         ("/asset", "names no asset version"),
         ("/asset/version", "names no asset version"),
     ] {

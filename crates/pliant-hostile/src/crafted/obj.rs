@@ -94,7 +94,7 @@ fn corners() -> Vec<Case> {
         ("-0", "vertices are numbered from 1".into()),
         ("4", "line 4: face names vertex 4, the file has 3".into()),
         ("-4", "line 4, face corner -4: there are 3 vertices so far".into()),
-        ("4294967295", "line 4: face names vertex 4294967295, the file has 3".into()),
+        ("4294967295", "line 4, face corner 4294967295: there are 3".into()),
         ("4294967296", "line 4, face corner 4294967296: there are 3".into()),
         ("4294967297", "line 4, face corner 4294967297: there are 3".into()),
         ("9223372036854775807", "there are 3 vertices so far".into()),
