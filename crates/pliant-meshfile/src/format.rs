@@ -45,6 +45,11 @@ impl Format {
         }
     }
 
+    /// Whether its files are always text, so that what they begin with can tell the encoding.
+    pub(crate) const fn is_text(self) -> bool {
+        matches!(self, Format::Obj | Format::Gltf | Format::Off)
+    }
+
     /// The format of a file by the ending of its name, upper or lower case.
     pub fn of(path: &Path) -> Option<Format> {
         let extension = path.extension()?.to_str()?;

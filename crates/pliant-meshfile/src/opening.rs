@@ -85,6 +85,9 @@ impl OpenOptions {
 
     fn read(&self, input: Input<'_>, format: Format) -> Result<MeshFile, Fault> {
         let stage = input.stage;
+        if format.is_text() && [[0xfe, 0xff], [0xff, 0xfe]].iter().any(|mark| input.bytes.starts_with(mark)) {
+            return Err(Fault::Container("is text in UTF-16: save it as UTF-8 in a text editor and open that".into()));
+        }
         let input = Input { stage: stage.part(0.0, WELD), ..input };
         let opened = (entry(format).read)(input)?;
         if opened.triangles.is_empty() {

@@ -147,3 +147,10 @@ fn comments_and_names_of_any_bytes_are_kept() {
     expected.extend(b"g \xe9t\xe9\nusemtl \x80\nf 1 2 3 # \xfe\n");
     assert_eq!(bytes, expected);
 }
+
+#[test]
+fn text_in_utf_16_is_named_as_such() {
+    let text: Vec<u8> = "\u{feff}v 0 0 0\n".encode_utf16().flat_map(u16::to_be_bytes).collect();
+    let error = crate::from_bytes(&text, crate::Format::Obj, "wide.obj").expect_err("not UTF-8").to_string();
+    assert_eq!(error, "wide.obj: is text in UTF-16: save it as UTF-8 in a text editor and open that");
+}
