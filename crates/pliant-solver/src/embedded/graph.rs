@@ -40,7 +40,7 @@ pub struct DeformationGraph {
 
 impl DeformationGraph {
     /// How many nodes there may be, were it not for more components: with that many, sampling a million vertices takes
-    /// half a minute, and a step a second.
+    /// half a minute, and a step some seconds.
     pub const NODES: RangeInclusive<usize> = 1..=20_000;
     /// How many nodes may carry a vertex: with one there would be no transition, and more than some change little.
     pub const NEIGHBORS: RangeInclusive<usize> = 2..=16;
