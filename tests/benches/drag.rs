@@ -1,7 +1,7 @@
 //! What a person feels: during a drag on the start sample at mixed r, surfaces a second from the solver and the window's
-//! own work a frame; on 100,000 vertices, the wait for a surface after a dab of the brush and after a new handle. Run by
-//! `cargo bench -p pliant-tests --bench drag`; needs a graphics adapter for the window. `-- drag`, `-- window` or
-//! `-- waits` runs one part.
+//! own work a frame; on 100,000 vertices, the wait for a surface after a dab of the brush and after a new handle; on 250,000
+//! and a million, surfaces a second. Run by `cargo bench -p pliant-tests --bench drag`; needs a graphics adapter for the
+//! window. `-- drag`, `-- window`, `-- waits` or `-- large` runs one part.
 
 #![allow(clippy::print_stdout, reason = "a benchmark prints its figures")]
 
@@ -23,7 +23,8 @@ const FRAME: Duration = Duration::from_nanos(16_666_667);
 
 fn main() {
     let chosen: Vec<String> = std::env::args().skip(1).filter(|argument| !argument.starts_with('-')).collect();
-    let parts: [(&str, fn()); 3] = [("drag", session_drag), ("waits", waits), ("window", window_drag)];
+    let parts: [(&str, fn()); 4] =
+        [("drag", session_drag), ("waits", waits), ("large", large_drags), ("window", window_drag)];
     for (name, part) in parts {
         if chosen.is_empty() || chosen.iter().any(|one| one == name) {
             part();
@@ -139,10 +140,52 @@ fn has_answered(session: &Session, revision: u64) -> bool {
     })
 }
 
+/// Drags on meshes whose iterations are slower than the screen: surfaces a second, and the longest wait for one.
+fn large_drags() {
+    for cells in [500, 1000] {
+        let mut session = Session::new(|| {}).expect("a solver thread");
+        let model = Model::from_file(bumpy_sheet(cells)).expect("a good mesh");
+        session.show(Opened::new(Arc::new(model)), None);
+        session.apply(Command::FillAll(2));
+        session.apply(Command::Hold { kind: GroupKind::Anchor, vertices: (0..=cells).map(VertexId).collect() });
+        let last_row = (cells * (cells + 1)..(cells + 1) * (cells + 1)).map(VertexId).collect();
+        answered_in(&mut session, Command::Hold { kind: GroupKind::Handle, vertices: last_row });
+        let handle = session.document().and_then(|document| document.scene().groups.last()).expect("just placed").id;
+        // What is needed to follow is made in the background; a person looks at the mesh for longer before dragging.
+        for frame in 0..3 {
+            answered_in(&mut session, Command::Move { group: handle, motion: motion(frame) });
+            std::thread::sleep(Duration::from_secs(2));
+            session.poll();
+        }
+        let (mut shown, mut waits) = (Instant::now(), Vec::new());
+        let mut last = None;
+        let start = Instant::now();
+        for frame in 3..FRAMES {
+            let begun = Instant::now();
+            session.apply(Command::Move { group: handle, motion: motion(frame) });
+            while begun.elapsed() < FRAME {
+                session.poll();
+                let frame = session.open().map(|open| Arc::as_ptr(open.surface.frame()));
+                if frame != last {
+                    waits.push(shown.elapsed());
+                    (shown, last) = (Instant::now(), frame);
+                }
+                std::thread::sleep(Duration::from_micros(500));
+            }
+        }
+        let rate = waits.len() as f64 / start.elapsed().as_secs_f64();
+        println!("drag on {} vertices, r 2, without drawing", (cells + 1) * (cells + 1));
+        println!("  surfaces a second        {rate:8.1}");
+        print_times("  wait for a surface    ", &mut waits);
+        let ms = session.status.report.as_ref().map_or(0.0, |report| report.iteration_ms);
+        println!("  solver iteration, median {ms:8.2} ms");
+    }
+}
+
 /// From a wish to the surface that knows of it, while the surface before is still on its way.
 fn waits() {
     let mut session = Session::new(|| {}).expect("a solver thread");
-    let model = Model::from_file(bumpy_sheet()).expect("a good mesh");
+    let model = Model::from_file(bumpy_sheet(CELLS)).expect("a good mesh");
     session.show(Opened::new(Arc::new(model)), None);
     let rim = (0..=CELLS).map(VertexId).collect();
     session.apply(Command::FillAll(2));
@@ -184,15 +227,15 @@ fn answered_in(session: &mut Session, command: Command) -> Duration {
 const CELLS: u32 = 316;
 
 /// A sheet with small hills, two triangles a cell.
-fn bumpy_sheet() -> MeshFile {
+fn bumpy_sheet(n: u32) -> MeshFile {
     let at = |i: u32, j: u32| {
-        let (x, y) = (f64::from(i) / f64::from(CELLS), f64::from(j) / f64::from(CELLS));
+        let (x, y) = (f64::from(i) / f64::from(n), f64::from(j) / f64::from(n));
         DVec3::new(x, y, 0.02 * (31.0 * x).sin() * (23.0 * y).cos())
     };
-    let positions = (0..=CELLS).flat_map(|j| (0..=CELLS).map(move |i| at(i, j))).collect();
-    let cells = (0..CELLS).flat_map(|j| (0..CELLS).map(move |i| (i, j)));
+    let positions = (0..=n).flat_map(|j| (0..=n).map(move |i| at(i, j))).collect();
+    let cells = (0..n).flat_map(|j| (0..n).map(move |i| (i, j)));
     let triangles = cells.flat_map(|(i, j)| {
-        let [a, b, c, d] = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)].map(|(i, j)| j * (CELLS + 1) + i);
+        let [a, b, c, d] = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)].map(|(i, j)| j * (n + 1) + i);
         [[a, b, c], [a, c, d]]
     });
     MeshFile::from_triangles("hills", positions, triangles.collect())

@@ -12,6 +12,7 @@ use pliant_solver::{
 };
 use rayon::prelude::*;
 
+use super::preview::{LIMITS, Limits, Previews};
 use super::stillness::Stillness;
 use super::{SolveReport, SolveRequest, SolveState};
 use crate::document::{Pose, held_by};
@@ -49,6 +50,9 @@ pub struct Engine {
     /// Whether the pose has changed since it was last reported.
     is_pose_new: bool,
     stillness: Stillness,
+    previews: Previews,
+    /// As last reported.
+    vertex_energies: Option<Arc<[f32]>>,
     last: StepReport,
     energies: VecDeque<f64>,
     times_ms: VecDeque<f64>,
@@ -57,9 +61,17 @@ pub struct Engine {
 impl Engine {
     /// Analyzes the mesh of a wish; seconds on a large mesh. [`Engine::adopt`] then prepares for the wish.
     pub fn new(wish: &SolveRequest) -> Engine {
+        Engine::with_previews(wish, LIMITS)
+    }
+
+    /// The same with other limits for previews.
+    pub(super) fn with_previews(wish: &SolveRequest, limits: Limits) -> Engine {
         let model = wish.model.clone();
+        let analysis = Arc::new(Analysis::new(model.mesh.clone(), wish.weights));
         Engine {
-            analysis: Arc::new(Analysis::new(model.mesh.clone(), wish.weights)),
+            previews: Previews::new(&analysis, limits),
+            vertex_energies: None,
+            analysis,
             normals: VertexNormals::new(model.mesh.n_vertices(), &model.triangles),
             solver: None,
             held: Vec::new(),
@@ -120,6 +132,7 @@ impl Engine {
 
     /// Nothing is held any more.
     fn rest(&mut self, wish: SolveRequest) {
+        self.previews.leave();
         self.solver = None;
         self.energies.clear();
         self.state = SolveState::Resting;
@@ -128,12 +141,18 @@ impl Engine {
 
     /// Changes the solver where the wish differs.
     fn update(&mut self, wish: SolveRequest) {
+        if self.is_another_system(&wish) {
+            self.leave_preview();
+        }
         let Some(mut solver) = self.solver.take() else { return };
         match self.change(&mut solver, &wish) {
-            Ok(is_changed) => {
+            Ok(change) => {
                 self.solver = Some(solver);
-                if is_changed {
+                if change != Change::None {
                     self.go_on(&wish);
+                }
+                if change == Change::Targets && self.is_busy() && self.can_preview() {
+                    self.preview(wish.loose);
                 }
             }
             Err(error) => self.fail(&error),
@@ -144,25 +163,35 @@ impl Engine {
         self.wish = wish;
     }
 
-    /// Returns whether anything differed.
-    fn change(&mut self, solver: &mut Solver, wish: &SolveRequest) -> Result<bool, SolveError> {
+    /// Whether a wish wants more than other targets near the old ones.
+    fn is_another_system(&self, wish: &SolveRequest) -> bool {
+        let (held, targets) = held_by(&wish.groups);
+        wish.epoch != self.wish.epoch
+            || wish.rigidity != self.wish.rigidity
+            || held != self.held
+            || self.is_leap(wish, &targets)
+    }
+
+    /// Returns what differed.
+    fn change(&mut self, solver: &mut Solver, wish: &SolveRequest) -> Result<Change, SolveError> {
         let jumped = wish.epoch != self.wish.epoch;
-        let mut changed = jumped;
+        let mut change = Change::None;
         if jumped {
+            change = Change::More;
             solver.set_pose(&wish.pose.positions)?;
             self.is_bent = !is_rest(wish);
             self.is_pose_new = true;
         }
         if wish.rigidity != self.wish.rigidity {
             solver.set_rigidity(&wish.rigidity)?;
-            changed = true;
+            change = Change::More;
         }
         let (held, targets) = held_by(&wish.groups);
         if held != self.held {
             solver.set_held(&held)?;
             self.targets = positions_of(&held, &solver.positions());
             self.held = held;
-            changed = true;
+            change = Change::More;
         }
         if targets != self.targets {
             let leaps = !jumped && self.is_leap(wish, &targets);
@@ -172,9 +201,39 @@ impl Engine {
                 self.is_bent = true;
             }
             self.targets = targets;
-            changed = true;
+            change = if leaps || change == Change::More { Change::More } else { Change::Targets };
         }
-        Ok(changed)
+        Ok(change)
+    }
+
+    /// Whether other targets can be followed by a preview, since iterations are too slow for that.
+    pub fn can_preview(&self) -> bool {
+        self.previews.serve(median(&self.times_ms))
+    }
+
+    /// Whether the surface is a preview, which is to be left when targets rest.
+    pub fn is_previewing(&self) -> bool {
+        self.previews.shown().is_some()
+    }
+
+    /// Shows a preview of the newest targets; where that cannot be had, iterations go on.
+    fn preview(&mut self, loose: LooseComponents) {
+        let Some(solver) = &self.solver else { return };
+        let held = (&self.held[..], &self.targets[..]);
+        match self.previews.show(&self.analysis, held, loose, || pose_of(solver)) {
+            Ok(()) => (self.is_bent, self.is_pose_new) = (true, true),
+            Err(error) => log::warn!("no preview: {error}"),
+        }
+    }
+
+    /// Iterations go on from the preview, if one is shown.
+    pub fn leave_preview(&mut self) {
+        let Some(pose) = self.previews.leave() else { return };
+        if let Some(solver) = &mut self.solver
+            && let Err(error) = solver.set_pose(&pose.positions).and_then(|()| solver.set_targets(&self.targets))
+        {
+            self.fail(&error);
+        }
     }
 
     /// Whether targets are so far from those before that the pose is no good beginning.
@@ -188,6 +247,7 @@ impl Engine {
         if neighborhoods.as_ref().is_err_and(|error| *error == SolveError::Canceled) {
             return ControlFlow::Break(());
         }
+        self.leave_preview();
         // The old factor goes before the new one comes.
         let old = self.solver.take().map(|solver| solver.positions());
         let goes_on = old.is_some() && wish.epoch == self.wish.epoch;
@@ -269,10 +329,14 @@ impl Engine {
     /// Where things stand, with the surface ready for the picture unless it is as last reported.
     pub fn report(&mut self) -> SolveReport {
         let is_new = std::mem::take(&mut self.is_pose_new);
-        let solver = self.solver.as_ref().filter(|_| is_new);
-        let pose = solver.map(pose_of);
+        let exact = || self.solver.as_ref().map(pose_of);
+        let pose = if is_new { self.previews.shown().cloned().or_else(exact) } else { None };
         let frame = pose.as_ref().map(|pose| Arc::new(self.frame(pose)));
-        let wants = self.wish.wants_vertex_energies;
+        // Those of a preview would be of no use, and take longer than the preview.
+        if !self.is_previewing() {
+            let solver = self.solver.as_ref().filter(|_| self.wish.wants_vertex_energies);
+            self.vertex_energies = solver.map(|solver| scaled(&solver.vertex_energies()));
+        }
         SolveReport {
             model: self.wish.model.clone(),
             revision: self.wish.revision,
@@ -285,9 +349,15 @@ impl Engine {
             relative_decrease: self.last.relative_decrease,
             iteration_ms: median(&self.times_ms),
             energies: self.energies.iter().copied().collect(),
-            vertex_energies: self.solver.as_ref().filter(|_| wants).map(|solver| scaled(&solver.vertex_energies())),
+            vertex_energies: self.vertex_energies.clone(),
             remarks: self.remarks(),
         }
+    }
+
+    /// Waits until previews can be had.
+    #[cfg(test)]
+    pub(super) fn wait_for_previews(&self) {
+        self.previews.wait();
     }
 
     /// Where the surface is, if anything is held.
@@ -318,6 +388,16 @@ impl Engine {
             parts => vec![format!("{} parts have no handle and {they}", parts.len())],
         }
     }
+}
+
+/// What a wish changed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Change {
+    None,
+    /// Targets alone, as in a drag.
+    Targets,
+    /// The pose, sizes, held vertices, or targets far away.
+    More,
 }
 
 /// The pose of a solver, written where it stays.

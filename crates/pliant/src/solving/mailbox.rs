@@ -1,6 +1,7 @@
 //! A place for one letter: a newer one replaces an older one.
 
 use std::sync::{Condvar, Mutex, PoisonError};
+use std::time::{Duration, Instant};
 
 /// Holds at most one value, and a flag that no more will come.
 #[derive(Debug)]
@@ -63,6 +64,22 @@ impl<T> Mailbox<T> {
                 return Ok(letter);
             }
             inner = self.arrived.wait(inner).unwrap_or_else(PoisonError::into_inner);
+        }
+    }
+
+    /// Sleeps until a letter comes, at most so long.
+    pub(super) fn wait_for(&self, patience: Duration) -> Result<Option<T>, Closed> {
+        let until = Instant::now() + patience;
+        let mut inner = self.lock();
+        loop {
+            if inner.closed {
+                return Err(Closed);
+            }
+            let left = until.saturating_duration_since(Instant::now());
+            if inner.letter.is_some() || left.is_zero() {
+                return Ok(inner.letter.take());
+            }
+            inner = self.arrived.wait_timeout(inner, left).unwrap_or_else(PoisonError::into_inner).0;
         }
     }
 

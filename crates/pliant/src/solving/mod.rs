@@ -7,6 +7,7 @@
 mod engine;
 mod mailbox;
 mod pace;
+mod preview;
 mod request;
 mod stillness;
 mod worker;

@@ -12,6 +12,10 @@ use super::{Engine, SolveReport, SolveRequest, SolveState};
 /// Progress is told this often: a number that changes faster cannot be read (by eye).
 const PROGRESS_EVERY: Duration = Duration::from_millis(100);
 
+/// Handles that have not moved for so long rest, and iterations go on from a preview: longer than between two moves of a
+/// slow hand, shorter than what is felt as a wait (by eye).
+const PATIENCE: Duration = Duration::from_millis(100);
+
 /// A solver thread. Dropping this tells it to end; it does so after the iteration or factorization under way.
 pub struct Worker {
     requests: Arc<Mailbox<SolveRequest>>,
@@ -60,7 +64,13 @@ fn run(inbox: &Mailbox<SolveRequest>, mut send: impl FnMut(SolveReport) + Send) 
     let mut pace = Pace::default();
     loop {
         let is_busy = engine.as_ref().is_some_and(Engine::is_busy);
-        let wish = if is_busy { inbox.take()? } else { Some(inbox.wait()?) };
+        let is_previewing = engine.as_ref().is_some_and(Engine::is_previewing);
+        let wish = match is_busy {
+            _ if is_previewing => inbox.wait_for(PATIENCE)?,
+            true => inbox.take()?,
+            false => Some(inbox.wait()?),
+        };
+        let is_resting = wish.is_none();
         newest = wish.clone().or(newest);
         let round = catch_unwind(AssertUnwindSafe(|| {
             if let Some(wish) = wish {
@@ -71,9 +81,14 @@ fn run(inbox: &Mailbox<SolveRequest>, mut send: impl FnMut(SolveReport) + Send) 
                 pace.turned(begun.elapsed());
             }
             let Some(engine) = &mut engine else { return };
-            if engine.is_busy() {
+            if is_previewing && is_resting {
+                engine.leave_preview();
+            }
+            if engine.is_busy() && !engine.is_previewing() {
                 let about = newest.as_ref();
-                let mut is_wanted = || !inbox.has(|newer| about.is_none_or(|about| is_other_system(newer, about)));
+                let previews = engine.can_preview();
+                let other = |newer: &SolveRequest| previews || about.is_none_or(|about| is_other_system(newer, about));
+                let mut is_wanted = || !inbox.has(other);
                 // What an iteration on the way would find is of no use to a newer wish for another system.
                 let Some(took) = engine.step(&mut is_wanted) else { return };
                 if pace.stepped(took) == Next::GoOn && engine.is_busy() {
