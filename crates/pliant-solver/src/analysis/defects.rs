@@ -5,6 +5,7 @@
 //! faces form more than one fan; fans are found by joining the corners of faces across their common edges.
 
 use glam::DVec3;
+use rayon::prelude::*;
 
 use crate::analysis::topology::{HalfEdges, Side};
 use crate::analysis::weights::unit_sides;
@@ -57,17 +58,19 @@ pub struct Defects {
 
 impl Defects {
     pub(crate) fn of(positions: &[DVec3], triangles: &[[u32; 3]], half_edges: &HalfEdges) -> Defects {
-        let count = |defect| half_edges.whole().filter(|&group| of_edge(group) == Some(defect)).count();
-        let border = |group: &&[Side]| of_edge(group) == Some(Defect::Boundary);
+        let n = positions.len();
+        let of_faces = || {
+            let is_flat = |&&face: &&[u32; 3]| is_flat(positions, face);
+            (triangles.par_iter().filter(is_flat).count(), duplicates(triangles).len())
+        };
+        let (fans, (edges, faces)) =
+            rayon::join(|| n_fans(n, triangles, half_edges), || rayon::join(|| of_edges(n, half_edges), of_faces));
         Defects {
-            boundary_edges: count(Defect::Boundary),
-            borders: runs(positions.len(), half_edges.whole().filter(border)),
-            non_manifold_edges: count(Defect::NonManifoldEdge),
-            non_manifold_vertices: n_fans(positions.len(), triangles, half_edges).iter().filter(|&&n| n > 1).count(),
-            inconsistent_edges: count(Defect::Inconsistent),
-            degenerate_faces: triangles.iter().filter(|&&face| is_flat(positions, face)).count(),
-            duplicate_faces: duplicates(triangles).len(),
-            unreferenced_vertices: unreferenced(positions.len(), triangles).count(),
+            non_manifold_vertices: fans.iter().filter(|&&n| n > 1).count(),
+            degenerate_faces: faces.0,
+            duplicate_faces: faces.1,
+            unreferenced_vertices: unreferenced(n, triangles).count(),
+            ..edges
         }
     }
 
@@ -111,6 +114,21 @@ impl Mesh {
     }
 }
 
+/// What is unusual about edges.
+fn of_edges(n: usize, half_edges: &HalfEdges) -> Defects {
+    let mut defects = Defects::default();
+    let mut border = Vec::new();
+    for group in half_edges.whole() {
+        match of_edge(group) {
+            Some(Defect::Boundary) => border.push([group[0].lower, group[0].upper]),
+            Some(Defect::NonManifoldEdge) => defects.non_manifold_edges += 1,
+            Some(_) => defects.inconsistent_edges += 1,
+            None => {}
+        }
+    }
+    Defects { boundary_edges: border.len(), borders: runs(n, &border), ..defects }
+}
+
 /// What is unusual about an edge, given the sides of the whole faces at it.
 fn of_edge(sides: &[Side]) -> Option<Defect> {
     match sides {
@@ -122,11 +140,10 @@ fn of_edge(sides: &[Side]) -> Option<Defect> {
 }
 
 /// Number of connected pieces that edges of some of `n` vertices form.
-fn runs<'a>(n: usize, edges: impl Iterator<Item = &'a [Side]>) -> usize {
+fn runs(n: usize, edges: &[[u32; 2]]) -> usize {
     let mut sets = Sets::new(n);
     let (mut touched, mut n_touched, mut n_joined) = (vec![false; n], 0, 0);
-    for edge in edges {
-        let [a, b] = [edge[0].lower, edge[0].upper];
+    for &[a, b] in edges {
         n_touched += [a, b].iter().filter(|&&v| !std::mem::replace(&mut touched[v as usize], true)).count();
         n_joined += usize::from(sets.join(a, b));
     }
@@ -160,7 +177,7 @@ fn duplicates(triangles: &[[u32; 3]]) -> Vec<[u32; 3]> {
         face
     };
     let mut sorted: Vec<[u32; 3]> = triangles.iter().map(ascending).collect();
-    sorted.sort_unstable();
+    sorted.par_sort_unstable();
     sorted.windows(2).filter(|pair| pair[0] == pair[1]).map(|pair| pair[0]).collect()
 }
 
