@@ -60,9 +60,10 @@ fn is_allowed(call: &str) -> bool {
         return true;
     }
     let names = strace::names(call);
+    let roots = ["/dev/shm".to_owned(), std::env::temp_dir().to_string_lossy().trim_end_matches('/').to_owned()];
     // What a path without `..` and with all links followed begins with. A number of the process stands for what it opened.
     let inside = |name: &String| {
-        let scratch = name.starts_with("/dev/shm/.tmp") || name.starts_with("/tmp/.tmp");
+        let scratch = roots.iter().any(|root| name.strip_prefix(root).is_some_and(|rest| rest.starts_with("/.tmp")));
         let folder = name.contains("/inside/") || name.ends_with("/inside") || !name.contains("/outside");
         scratch && folder && !name.contains("/../")
     };
