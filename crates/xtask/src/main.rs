@@ -44,6 +44,9 @@ enum Task {
     },
     /// Measure the solver and write docs/performance.md
     Bench(bench::Options),
+    /// Tell how much memory a solver takes, in a process that does nothing else
+    #[command(hide = true)]
+    ProbeMemory(bench::Probe),
     /// Open, bend and save every mesh file of some folders, each in processes of its own with limits
     Corpus(corpus::Options),
 }
@@ -54,6 +57,7 @@ fn main() -> ExitCode {
         Task::Assets { check } => assets::run(check),
         Task::Validate { files } => validating::run(&files),
         Task::Bench(options) => bench::run(&options),
+        Task::ProbeMemory(probe) => bench::probe(probe),
         Task::Corpus(options) => corpus::run(&options),
     };
     match done {

@@ -6,6 +6,7 @@
 //! | `scene` | meshes with handles |
 //! | `stages` | every stage of the solver by size and r |
 //! | `kernels` | the parts of an iteration beside the memory's floor |
+//! | `memory` | what the solver keeps, by processes of its own |
 //! | `learning` | rigidity from poses |
 //! | `methods` | embedded deformation and SR-ARAP |
 //! | `opening` | files, beside other readers |
@@ -20,6 +21,7 @@ mod descent;
 mod kernels;
 mod learning;
 mod machine;
+mod memory;
 mod methods;
 mod opening;
 mod outside;
@@ -32,6 +34,7 @@ use crate::assets;
 use crate::failure::Failure;
 use clap::ValueEnum;
 use machine::Machine;
+pub(crate) use memory::{Probe, probe};
 use pliant_solver::Rigidity;
 use scene::Scene;
 use std::fs;
@@ -68,6 +71,8 @@ enum Part {
     Stages,
     /// The parts of an iteration beside the memory's floor
     Kernels,
+    /// Memory that the solver takes
+    Memory,
     /// An iteration timed by the command line
     Outside,
     /// How fast the energy falls after a jump
@@ -89,6 +94,7 @@ impl Part {
         match self {
             Part::Stages => "Stages",
             Part::Kernels => "Kernels",
+            Part::Memory => "Memory",
             Part::Outside => "An iteration from outside",
             Part::Rest => "From rest",
             Part::Drag => "A drag",
@@ -213,6 +219,7 @@ impl<'a> Bench<'a> {
         Ok(Some(match (part, self.program) {
             (Part::Stages, _) => stages::tables(&self.scenes)?,
             (Part::Kernels, _) => kernels::table(&self.scenes, self.machine.bandwidth[1])?,
+            (Part::Memory, Some(_)) => memory::table(&self.bodies(&CUTS[1..5]))?,
             (Part::Outside, Some(program)) => outside::table(program, &self.bodies(&CUTS[1..4]), folder)?,
             (Part::Rest, _) => {
                 let jumps: Vec<_> = both().into_iter().flat_map(|scene| [(scene, 1), (scene, 10)]).collect();
@@ -223,7 +230,7 @@ impl<'a> Bench<'a> {
             (Part::Methods, _) => methods::table(&self.bodies(&CUTS[1..3]))?,
             (Part::Opening, _) => opening::table(quick, folder)?,
             (Part::Peers, Some(program)) => peers::tables(program, &both(), folder, most)?,
-            (Part::Outside | Part::Peers, None) => return Ok(None),
+            (Part::Memory | Part::Outside | Part::Peers, None) => return Ok(None),
         }))
     }
 
