@@ -5,11 +5,10 @@ use std::time::{Duration, Instant};
 
 use egui::{CentralPanel, Frame, Margin, Panel};
 
-use super::actions::WindowAction;
 use super::keyboard::Keyboard;
 use super::panels::{self, Dialog, DialogOutcome, Loss};
 use super::viewport_panel::ViewportPanel;
-use super::{Action, Job, JobEvent, NoticeKind, Opened, Sample, Session, theme};
+use super::{Job, JobEvent, NoticeKind, Opened, Sample, Session, theme};
 
 /// Why the window could not be shown.
 #[derive(Debug, thiserror::Error)]
@@ -88,36 +87,29 @@ impl EditorApp {
         self.last_frame
     }
 
-    fn perform(&mut self, action: Action, ctx: &egui::Context) {
-        let theme_before = self.session.look.theme;
-        match action.perform(&mut self.session) {
-            None => {}
-            Some(WindowAction::Open) => self.dialog = Dialog::Open { path: String::new() },
-            Some(WindowAction::OpenSample(sample)) => self.lose(Loss::OpenSample(sample), ctx),
-            Some(WindowAction::Reopen) => {
-                let path = self.session.document().and_then(|document| document.model().file.path.clone());
-                if let Some(path) = path {
-                    self.lose(Loss::Open(path), ctx);
-                }
-            }
-            Some(WindowAction::SaveAs) => self.ask_where_to_save(),
-            Some(WindowAction::Save) => self.save(),
-            Some(WindowAction::Quit) => ctx.send_viewport_cmd(egui::ViewportCommand::Close),
-            Some(WindowAction::Keys) => self.dialog = Dialog::Keys,
-        }
-        if self.session.look.theme != theme_before {
-            theme::apply(ctx, self.session.look.theme);
+    pub(super) fn ask_what_to_open(&mut self, _ctx: &egui::Context) {
+        self.dialog = Dialog::Open { path: String::new() };
+    }
+
+    pub(super) fn reopen(&mut self, ctx: &egui::Context) {
+        let path = self.session.document().and_then(|document| document.model().file.path.clone());
+        if let Some(path) = path {
+            self.lose(Loss::Open(path), ctx);
         }
     }
 
-    fn save(&mut self) {
+    pub(super) fn show_keys(&mut self, _ctx: &egui::Context) {
+        self.dialog = Dialog::Keys;
+    }
+
+    pub(super) fn save(&mut self) {
         match self.session.open().and_then(|open| open.save_path.clone()) {
             Some(path) => self.save_to(path),
             None => self.ask_where_to_save(),
         }
     }
 
-    fn ask_where_to_save(&mut self) {
+    pub(super) fn ask_where_to_save(&mut self) {
         let Some(open) = self.session.open() else {
             return;
         };
@@ -146,7 +138,7 @@ impl EditorApp {
     }
 
     /// Does what would lose unsaved changes, or asks first.
-    fn lose(&mut self, loss: Loss, ctx: &egui::Context) {
+    pub(super) fn lose(&mut self, loss: Loss, ctx: &egui::Context) {
         if self.session.document().is_some_and(|document| document.is_modified()) {
             self.dialog = Dialog::Unsaved(loss);
         } else {
@@ -281,11 +273,11 @@ impl eframe::App for EditorApp {
             panels::welcome(ui, rect, &mut self.session);
             panels::notices(ui, rect, &mut self.session);
         });
+        for action in chosen {
+            action.perform(self, &ctx);
+        }
         if self.session.look.theme != theme_before {
             theme::apply(&ctx, self.session.look.theme);
-        }
-        for action in chosen {
-            self.perform(action, &ctx);
         }
         if let Some(outcome) = self.dialog.show(&ctx, &mut self.session) {
             self.after_dialog(outcome, &ctx);

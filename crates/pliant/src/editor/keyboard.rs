@@ -28,26 +28,9 @@ impl Keyboard {
         if !egui::Popup::is_any_open(ctx) && ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {
             session.input(Input::Key(ToolKey::Escape));
         }
+        let actions = session.shortcuts.take(ctx, |_| true);
         self.digits(ctx, session);
         brush_radius(ctx, session);
-        let mut actions: Vec<Action> = Vec::new();
-        // Longer shortcuts first: Ctrl+Shift+Z also matches Ctrl+Z.
-        let mut all: Vec<Action> = Action::ALL.to_vec();
-        all.sort_by_key(|action| action.shortcut().is_none_or(|shortcut| !shortcut.modifiers.shift));
-        for action in all {
-            if let Some(shortcut) = action.shortcut()
-                && ctx.input_mut(|input| input.consume_shortcut(&shortcut))
-            {
-                actions.push(action);
-            }
-        }
-        for (key, action) in
-            [(Key::Home, Action::Frame), (Key::Backspace, Action::DeleteHandle), (Key::Questionmark, Action::Keys)]
-        {
-            if ctx.input_mut(|input| input.consume_key(Modifiers::NONE, key)) {
-                actions.push(action);
-            }
-        }
         actions
     }
 

@@ -44,11 +44,11 @@ impl Sample {
     ];
 
     /// Name in menus.
-    pub fn name(self) -> &'static str {
+    pub const fn name(self) -> &'static str {
         self.parts().name
     }
 
-    fn parts(self) -> Parts {
+    const fn parts(self) -> Parts {
         macro_rules! asset {
             ($name:literal) => {
                 concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/", $name)

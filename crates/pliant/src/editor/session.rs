@@ -9,7 +9,9 @@ use pliant_meshfile::{OpenOptions, Welding};
 use pliant_solver::{Rigidity, VertexId};
 
 use super::jobs::{Jobs, Opened};
-use super::{ColorBy, Job, JobEvent, Learning, Look, NoticeKind, Notices, Open, Sample, Shown, Status, Trial, Welcome};
+use super::{
+    ColorBy, Job, JobEvent, Learning, Look, NoticeKind, Notices, Open, Sample, Shortcuts, Shown, Status, Trial, Welcome,
+};
 use crate::document::{Command, Document, GroupKind, Model, SelectMode, Snapshot};
 use crate::solving::{SolveReport, SolveRequest, Worker};
 use crate::tools::{Context, Input, Marks, Options, Tool, ToolKind, View};
@@ -30,6 +32,8 @@ pub struct Session {
     pub status: Status,
     /// Which vertices of the next file become one point.
     pub welding: Welding,
+    /// Keys of the actions.
+    pub shortcuts: Shortcuts,
     /// Rigidity being learned from poses, while its panel is open.
     pub learning: Option<Learning>,
     wake: Arc<dyn Fn() + Send + Sync>,
@@ -56,6 +60,7 @@ impl Session {
             notices: Notices::default(),
             status: Status::default(),
             welding: Welding::Exact,
+            shortcuts: Shortcuts::default(),
             learning: None,
             wake: wake.clone(),
             viewport_size: Vec2::new(800.0, 600.0),

@@ -41,7 +41,7 @@ impl ToolKind {
         [ToolKind::Handle, ToolKind::Anchor, ToolKind::Select, ToolKind::Brush, ToolKind::Fill];
 
     /// Name on its button.
-    pub fn label(self) -> &'static str {
+    pub const fn label(self) -> &'static str {
         match self {
             ToolKind::Handle => "Handle",
             ToolKind::Anchor => "Anchor",
@@ -52,7 +52,7 @@ impl ToolKind {
     }
 
     /// What it does, for the tooltip.
-    pub fn description(self) -> &'static str {
+    pub const fn description(self) -> &'static str {
         match self {
             ToolKind::Handle => "Click the surface to place a handle, drag handles to bend it",
             ToolKind::Anchor => "Click the surface to hold it where it is",

@@ -192,27 +192,3 @@ fn deleting_all_handles_and_placing_new_ones_keeps_the_pose() {
     session.apply(Command::Hold { kind: GroupKind::Handle, vertices: vec![VertexId(middle(17))] });
     assert_eq!(document(&session).scene().groups[0].base[0], bent[middle(17) as usize]);
 }
-
-#[test]
-fn every_action_without_a_document_says_what_to_do() {
-    let session = Session::new(|| {}).expect("a solver thread");
-    for &action in Action::ALL {
-        let needs_document = !matches!(
-            action,
-            Action::Open | Action::OpenSample(_) | Action::Quit | Action::Tool(_) | Action::ToggleTheme | Action::Keys
-        );
-        assert_eq!(action.obstacle(&session).is_some(), needs_document, "{action:?}");
-        assert!(!action.label().is_empty() && !action.tooltip().is_empty(), "{action:?}");
-    }
-}
-
-#[test]
-fn no_two_actions_share_a_shortcut() {
-    let mut seen = Vec::new();
-    for &action in Action::ALL {
-        if let Some(shortcut) = action.shortcut() {
-            assert!(!seen.contains(&shortcut), "{action:?} has a shortcut that is taken: {shortcut:?}");
-            seen.push(shortcut);
-        }
-    }
-}

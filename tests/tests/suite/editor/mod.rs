@@ -1,5 +1,6 @@
 //! The editor without a window: what its session promises, driven by the same input a window would give.
 
+mod actions;
 mod bending;
 mod files;
 mod learning;

@@ -72,7 +72,7 @@ impl Dialog {
                 Dialog::None => {}
                 Dialog::Open { path } => outcome = open(ui, path, session, &mut close),
                 Dialog::Save { path } => outcome = save(ui, path, session, &mut close),
-                Dialog::Keys => keys(ui, &mut close),
+                Dialog::Keys => keys(ui, session, &mut close),
                 Dialog::Unsaved(loss) => outcome = unsaved(ui, loss, &mut close),
             }
         });
@@ -178,7 +178,7 @@ fn unsaved(ui: &mut Ui, loss: &Loss, close: &mut bool) -> Option<DialogOutcome> 
     outcome
 }
 
-fn keys(ui: &mut Ui, close: &mut bool) {
+fn keys(ui: &mut Ui, session: &Session, close: &mut bool) {
     ui.heading("Keys and mouse");
     ui.add_space(4.0);
     let height = ui.ctx().content_rect().height() - 180.0;
@@ -201,9 +201,10 @@ fn keys(ui: &mut Ui, close: &mut bool) {
                 ui.label(how);
                 ui.end_row();
             }
-            for action in Action::ALL {
-                if let Some(shortcut) = action.shortcut() {
-                    ui.label(RichText::new(ui.ctx().format_shortcut(&shortcut)).strong());
+            for action in Action::all() {
+                let key = session.shortcuts.text(action, ui.ctx());
+                if !key.is_empty() {
+                    ui.label(RichText::new(key).strong());
                     ui.label(action.label()).on_hover_text(action.tooltip());
                     ui.end_row();
                 }

@@ -29,13 +29,17 @@ use egui::{Response, Ui};
 
 use super::Session;
 
+/// The tooltip of an action, with its key if it has one.
+fn tip(ui: &Ui, session: &Session, action: Action) -> String {
+    match session.shortcuts.text(action, ui.ctx()) {
+        key if key.is_empty() => action.tooltip().to_owned(),
+        key => format!("{} ({key})", action.tooltip()),
+    }
+}
+
 /// A button for an action: label, tooltip with its key, and the reason when it cannot be done now.
 fn action_button(ui: &mut Ui, session: &Session, action: Action) -> Response {
     let obstacle = action.obstacle(session);
     let response = ui.add_enabled(obstacle.is_none(), egui::Button::new(action.label()));
-    let tip = match action.shortcut() {
-        Some(shortcut) => format!("{} ({})", action.tooltip(), ui.ctx().format_shortcut(&shortcut)),
-        None => action.tooltip().to_owned(),
-    };
-    response.on_hover_text(tip).on_disabled_hover_text(obstacle.unwrap_or_default())
+    response.on_hover_text(tip(ui, session, action)).on_disabled_hover_text(obstacle.unwrap_or_default())
 }

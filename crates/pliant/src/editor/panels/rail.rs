@@ -14,14 +14,15 @@ pub(in crate::editor) fn rail(ui: &mut Ui, session: &mut Session) {
     ui.vertical_centered(|ui| {
         ui.add_space(4.0);
         for kind in ToolKind::ALL {
-            if button(ui, kind, session.tool_kind() == kind).clicked() {
+            let key = Action::of_tool(kind).map(|action| session.shortcuts.text(action, ui.ctx())).unwrap_or_default();
+            if button(ui, kind, &key, session.tool_kind() == kind).clicked() {
                 session.take_tool(kind);
             }
         }
     });
 }
 
-fn button(ui: &mut Ui, kind: ToolKind, is_current: bool) -> egui::Response {
+fn button(ui: &mut Ui, kind: ToolKind, key: &str, is_current: bool) -> egui::Response {
     let (rect, response) = ui.allocate_exact_size(BUTTON, Sense::click());
     response.widget_info(|| WidgetInfo::selected(egui::Role::Button, true, is_current, kind.label()));
     let visuals = ui.style().interact(&response);
@@ -40,6 +41,6 @@ fn button(ui: &mut Ui, kind: ToolKind, is_current: bool) -> egui::Response {
         let stroke = egui::Stroke::new(1.5, theme::ACCENT);
         painter.rect_stroke(rect, CornerRadius::same(7), stroke, egui::StrokeKind::Inside);
     }
-    let key = Action::Tool(kind).shortcut().map(|key| ui.ctx().format_shortcut(&key)).unwrap_or_default();
-    response.on_hover_text(format!("{} ({key})", kind.description()))
+    let key = if key.is_empty() { String::new() } else { format!(" ({key})") };
+    response.on_hover_text(format!("{}{key}", kind.description()))
 }

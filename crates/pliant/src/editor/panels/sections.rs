@@ -31,11 +31,11 @@ pub(super) fn select(ui: &mut Ui, session: &mut Session, chosen: &mut Option<Act
     ui.label(RichText::new(format!("{n} selected")).weak());
     ui.horizontal_wrapped(|ui| {
         for action in [
-            Action::HandleFromSelection,
-            Action::AnchorFromSelection,
-            Action::HoldEverythingElse,
-            Action::FillSelection,
-            Action::SelectNone,
+            Action::HANDLE_FROM_SELECTION,
+            Action::ANCHOR_FROM_SELECTION,
+            Action::HOLD_EVERYTHING_ELSE,
+            Action::FILL_SELECTION,
+            Action::SELECT_NONE,
         ] {
             if action_button(ui, session, action).clicked() {
                 *chosen = Some(action);
@@ -92,7 +92,7 @@ pub(super) fn rigidity(ui: &mut Ui, session: &mut Session, chosen: &mut Option<A
         ui.label(RichText::new(text).weak());
     }
     ui.horizontal_wrapped(|ui| {
-        for action in [Action::FillAll, Action::LearnRigidity] {
+        for action in [Action::FILL_ALL, Action::LEARN_RIGIDITY] {
             if action_button(ui, session, action).clicked() {
                 *chosen = Some(action);
             }
@@ -121,8 +121,8 @@ pub(super) fn handles(ui: &mut Ui, session: &mut Session, chosen: &mut Option<Ac
     }
     commands.into_iter().for_each(|command| session.apply(command));
     ui.horizontal(|ui| {
-        if action_button(ui, session, Action::ResetPose).clicked() {
-            *chosen = Some(Action::ResetPose);
+        if action_button(ui, session, Action::RESET_POSE).clicked() {
+            *chosen = Some(Action::RESET_POSE);
         }
     });
 }

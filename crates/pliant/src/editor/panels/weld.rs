@@ -38,8 +38,8 @@ pub(super) fn mesh(ui: &mut Ui, session: &mut Session, chosen: &mut Option<Actio
     choice(ui, &mut session.welding, unit);
     if session.welding != is {
         ui.horizontal(|ui| {
-            if action_button(ui, session, Action::Reopen).clicked() {
-                *chosen = Some(Action::Reopen);
+            if action_button(ui, session, Action::REOPEN).clicked() {
+                *chosen = Some(Action::REOPEN);
             }
             ui.label(RichText::new(format!("welded now: {is}")).weak());
         });

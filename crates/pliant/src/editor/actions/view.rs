@@ -1,0 +1,97 @@
+//! The menu *View*.
+
+use egui::Key;
+
+use super::actions;
+use super::entry::{ALT, Entry, NONE};
+use crate::editor::{ColorBy, Session};
+use crate::viewport::{Axis, Projection, Shading, Theme};
+
+actions! {
+    /// The file's own colors.
+    COLOR_PLAIN = Entry::new("view.color-plain", "Plain colors", "Show the mesh in its own colors")
+        .on(|session| session.look.color_by == ColorBy::Plain)
+        .look(|look| look.color_by = ColorBy::Plain);
+    /// Colors by r.
+    COLOR_RIGIDITY = Entry::new("view.color-rigidity", "Color by rigidity", "Show where the mesh is soft and stiff")
+        .on(|session| session.look.color_by == ColorBy::Rigidity)
+        .look(|look| look.color_by = ColorBy::Rigidity);
+    /// Colors by energy.
+    COLOR_ENERGY = Entry::new("view.color-energy", "Color by energy", "Show where the surface is strained most")
+        .on(|session| session.look.color_by == ColorBy::Energy)
+        .look(|look| look.color_by = ColorBy::Energy);
+    /// Edges over the surface.
+    TOGGLE_WIREFRAME = Entry::new("view.wireframe", "Wireframe", "Show the edges of the mesh")
+        .key(NONE, Key::W)
+        .apart()
+        .on(|session| session.look.wireframe)
+        .look(|look| look.wireframe = !look.wireframe);
+    /// Smooth or flat.
+    TOGGLE_SHADING = Entry::new("view.flat", "Flat shading", "Show single faces rather than a smooth surface")
+        .key(NONE, Key::N)
+        .on(|session| session.look.shading == Shading::Flat)
+        .look(|look| {
+            look.shading = if look.shading == Shading::Smooth { Shading::Flat } else { Shading::Smooth };
+        });
+    /// Ground grid.
+    TOGGLE_GRID = Entry::new("view.grid", "Ground grid", "Show a grid below the mesh")
+        .on(|session| session.look.grid)
+        .look(|look| look.grid = !look.grid);
+    /// Dots and gizmo.
+    TOGGLE_HANDLES = Entry::new("view.handles", "Handles and gizmo", "Show handles, anchors and the gizmo")
+        .on(|session| session.look.handles)
+        .look(|look| look.handles = !look.handles);
+    /// Fits selection or surface into the viewport.
+    FRAME = Entry::new(
+        "view.frame",
+        "Frame selection or all",
+        "Bring the selection, or else the whole surface, into view",
+    )
+    .key(NONE, Key::Period)
+    .key(NONE, Key::Home)
+    .apart()
+    .does(Session::frame);
+    /// Perspective or orthographic.
+    TOGGLE_PROJECTION = Entry::new("view.orthographic", "Orthographic", "Show the mesh without vanishing points")
+        .key(NONE, Key::P)
+        .key(ALT, Key::Num5)
+        .on(|session| session.open().is_some_and(|open| open.camera.projection == Projection::Orthographic))
+        .does(toggle_projection);
+    /// From the front.
+    LOOK_FRONT = from("view.front", "Front").key(ALT, Key::Num1).does(|session| look_from(session, Axis::Front));
+    /// From behind.
+    LOOK_BACK = from("view.back", "Back").does(|session| look_from(session, Axis::Back));
+    /// From the right.
+    LOOK_RIGHT = from("view.right", "Right").key(ALT, Key::Num3).does(|session| look_from(session, Axis::Right));
+    /// From the left.
+    LOOK_LEFT = from("view.left", "Left").does(|session| look_from(session, Axis::Left));
+    /// From above.
+    LOOK_TOP = from("view.top", "Top").key(ALT, Key::Num7).does(|session| look_from(session, Axis::Top));
+    /// From below.
+    LOOK_BOTTOM = from("view.bottom", "Bottom").does(|session| look_from(session, Axis::Bottom));
+    /// Dark or light.
+    TOGGLE_THEME = Entry::new("view.light", "Light window", "Switch between the light and the dark window")
+        .anytime()
+        .apart()
+        .on(|session| session.look.theme == Theme::Light)
+        .look(|look| look.theme = if look.theme == Theme::Dark { Theme::Light } else { Theme::Dark });
+}
+
+const fn from(id: &'static str, label: &'static str) -> Entry {
+    Entry::new(id, label, "Look along an axis").within("Look from")
+}
+
+fn look_from(session: &mut Session, axis: Axis) {
+    if let Some(open) = session.open_mut() {
+        open.camera.look_along(axis);
+    }
+}
+
+fn toggle_projection(session: &mut Session) {
+    if let Some(open) = session.open_mut() {
+        open.camera.projection = match open.camera.projection {
+            Projection::Perspective => Projection::Orthographic,
+            Projection::Orthographic => Projection::Perspective,
+        };
+    }
+}
