@@ -39,9 +39,15 @@ fn items(ui: &mut Ui, session: &Session, actions: &[Action], chosen: &mut Option
 }
 
 fn item(ui: &mut Ui, session: &Session, action: Action, chosen: &mut Option<Action>) {
-    let is_on = action.is_on(session);
-    let button = egui::Button::selectable(is_on == Some(true), action.title(session))
-        .shortcut_text(session.shortcuts.text(action, ui.ctx()));
+    let title = action.title(session);
+    let mut button = match action.is_on(session) {
+        Some(is_on) => egui::Button::selectable(is_on, title),
+        None => egui::Button::new(title),
+    };
+    let key = session.shortcuts.text(action, ui.ctx());
+    if !key.is_empty() {
+        button = button.shortcut_text(key);
+    }
     let obstacle = action.obstacle(session);
     let response = ui.add_enabled(obstacle.is_none(), button).on_hover_text(tip(ui, session, action));
     if response.on_disabled_hover_text(obstacle.unwrap_or_default()).clicked() {
