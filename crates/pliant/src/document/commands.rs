@@ -67,6 +67,8 @@ pub enum Command {
     FillAll(u16),
     /// Sets r of every vertex to what was learned from poses: one r per surface point.
     Learn(Rigidity),
+    /// Locks or unlocks vertices: while locked, their r stays whatever is painted, filled or learned.
+    Lock(Vec<VertexId>, SelectMode),
     /// Changes the selection.
     Select(Vec<VertexId>, SelectMode),
     /// Changes the edge weights of the energy.
@@ -141,6 +143,8 @@ impl Command {
             Command::Fill { .. } => "Fill rigidity",
             Command::FillAll(_) => "Set rigidity everywhere",
             Command::Learn(_) => "Learn rigidity",
+            Command::Lock(_, SelectMode::Remove) => "Unlock rigidity",
+            Command::Lock(..) => "Lock rigidity",
             Command::Select(..) => "Select",
             Command::SetWeights(_) => "Change weights",
             Command::SetLoose(_) => "Change loose parts",
@@ -186,14 +190,18 @@ pub(super) fn changed(scene: &Scene, command: Command, around: Surroundings<'_>)
         }
         Command::FillAll(r) => {
             check_rigidity(r)?;
-            next.rigidity = Rigidity::uniform(around.rest.len(), r);
+            next.rigidity = keeping_locked(scene, Rigidity::uniform(around.rest.len(), r))?;
         }
         Command::Learn(rigidity) => {
             let (got, expected) = (rigidity.as_slice().len(), around.rest.len());
             if got != expected {
                 return Err(CommandError::WrongLength { got, expected });
             }
-            next.rigidity = rigidity;
+            next.rigidity = keeping_locked(scene, rigidity)?;
+        }
+        Command::Lock(vertices, mode) => {
+            check_vertices(&vertices, around.rest.len())?;
+            next.locked = combine(&scene.locked, vertices, mode);
         }
         Command::Select(vertices, mode) => {
             check_vertices(&vertices, around.rest.len())?;
@@ -259,17 +267,37 @@ fn edit_group(scene: &mut Scene, id: GroupId, edit: impl FnOnce(&mut Group)) -> 
     Ok(())
 }
 
+/// Later values for a vertex replace earlier ones. Nothing is copied where nothing changes.
 fn paint(scene: &mut Scene, values: &[(VertexId, u16)]) -> Result<(), CommandError> {
-    let mut r = scene.rigidity.as_slice().to_vec();
+    let r = scene.rigidity.as_slice();
     let n_vertices = r.len();
+    let mut changes = false;
     for &(v, value) in values {
         check_rigidity(value)?;
-        *r.get_mut(v.index()).ok_or(CommandError::NoSuchVertex { vertex: v.0, n_vertices })? = value;
+        let old = *r.get(v.index()).ok_or(CommandError::NoSuchVertex { vertex: v.0, n_vertices })?;
+        changes |= old != value;
     }
-    if r != scene.rigidity.as_slice() {
-        scene.rigidity = Rigidity::new(r)?;
+    if changes {
+        let locked = &scene.locked;
+        let painted = scene.rigidity.edited(|r| {
+            for &(v, value) in values.iter().filter(|(v, _)| !locked.contains(*v)) {
+                r[v.index()] = value;
+            }
+        })?;
+        if painted != scene.rigidity {
+            scene.rigidity = painted;
+        }
     }
     Ok(())
+}
+
+/// `new` with the old r where vertices are locked.
+fn keeping_locked(scene: &Scene, new: Rigidity) -> Result<Rigidity, CommandError> {
+    if scene.locked.is_empty() {
+        return Ok(new);
+    }
+    let old = scene.rigidity.as_slice();
+    Ok(new.edited(|r| scene.locked.vertices().iter().for_each(|v| r[v.index()] = old[v.index()]))?)
 }
 
 fn check_rigidity(r: u16) -> Result<(), CommandError> {

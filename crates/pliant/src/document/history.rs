@@ -107,6 +107,7 @@ mod tests {
             rigidity: Rigidity::uniform(100, 1),
             groups: [].into(),
             selection: Selection::default(),
+            locked: Selection::default(),
             active: None,
             weights: Weights::default(),
             loose: LooseComponents::default(),

@@ -109,6 +109,8 @@ pub struct Scene {
     pub groups: Arc<[Group]>,
     /// Selected surface points.
     pub selection: Selection,
+    /// Surface points whose r no brush, fill or learning changes.
+    pub locked: Selection,
     /// The group whose gizmo is shown.
     pub active: Option<GroupId>,
     /// Edge weights of the energy.
@@ -124,6 +126,7 @@ impl Scene {
             rigidity: model.rigidity.clone(),
             groups: Arc::new([]),
             selection: Selection::default(),
+            locked: Selection::default(),
             active: None,
             weights: Weights::default(),
             // Eyes and buttons are parts of their own in most files, and nobody wants them left behind.
@@ -174,6 +177,9 @@ impl Scene {
         }
         if !std::ptr::eq(self.selection.vertices(), other.selection.vertices()) {
             bytes += size_of_val(self.selection.vertices());
+        }
+        if !std::ptr::eq(self.locked.vertices(), other.locked.vertices()) {
+            bytes += size_of_val(self.locked.vertices());
         }
         bytes
     }

@@ -31,11 +31,15 @@ enum Gesture {
     Zoom,
 }
 
+/// A set of vertices, out of how many, and one flag for each.
+type Flags = Option<(Selection, usize, Arc<[bool]>)>;
+
 /// Values that are made anew only when their source changed.
 #[derive(Default)]
 struct Cache {
     rigidity: Option<(Rigidity, Arc<[u16]>)>,
-    selected: Option<(Selection, usize, Arc<[bool]>)>,
+    selected: Flags,
+    locked: Flags,
     bounds: Option<(Arc<SurfaceFrame>, (Vec3, Vec3))>,
     dots: Arc<[Dot]>,
     lines: Arc<[Line]>,
@@ -287,7 +291,9 @@ impl ViewportPanel {
             triangles: model.triangles.clone(),
             rigidity: self.cache.rigidity(rigidity),
             values,
-            selected: self.cache.selected(&scene.selection, frame.positions.len()),
+            selected: flags(&mut self.cache.selected, &scene.selection, frame.positions.len()),
+            locked: flags(&mut self.cache.locked, &scene.locked, frame.positions.len()),
+            preview: marks.preview,
             base_colors: model.base_colors.clone(),
             dots: self.cache.dots.clone(),
             lines: self.cache.lines.clone(),
@@ -318,25 +324,6 @@ impl Cache {
         }
     }
 
-    fn selected(&mut self, selection: &Selection, n: usize) -> Option<Arc<[bool]>> {
-        if selection.is_empty() {
-            self.selected = None;
-            return None;
-        }
-        match &self.selected {
-            Some((known, of, flags)) if *of == n && std::ptr::eq(known.vertices(), selection.vertices()) => {
-                Some(flags.clone())
-            }
-            _ => {
-                let mut flags = vec![false; n];
-                selection.vertices().iter().for_each(|v| flags[v.index()] = true);
-                let flags: Arc<[bool]> = flags.into();
-                self.selected = Some((selection.clone(), n, flags.clone()));
-                Some(flags)
-            }
-        }
-    }
-
     fn bounds(&mut self, frame: &Arc<SurfaceFrame>, compute: impl FnOnce() -> (Vec3, Vec3)) -> (Vec3, Vec3) {
         match &self.bounds {
             Some((known, bounds)) if Arc::ptr_eq(known, frame) => *bounds,
@@ -345,6 +332,24 @@ impl Cache {
                 self.bounds = Some((frame.clone(), bounds));
                 bounds
             }
+        }
+    }
+}
+
+/// One flag a vertex of a set, the same allocation as long as the set is; `None` for an empty one.
+fn flags(kept: &mut Flags, set: &Selection, n: usize) -> Option<Arc<[bool]>> {
+    if set.is_empty() {
+        *kept = None;
+        return None;
+    }
+    match kept {
+        Some((known, of, flags)) if *of == n && std::ptr::eq(known.vertices(), set.vertices()) => Some(flags.clone()),
+        _ => {
+            let mut flags = vec![false; n];
+            set.vertices().iter().for_each(|v| flags[v.index()] = true);
+            let flags: Arc<[bool]> = flags.into();
+            *kept = Some((set.clone(), n, flags.clone()));
+            Some(flags)
         }
     }
 }

@@ -4,7 +4,7 @@ use glam::Vec2;
 
 use super::{Options, Surface};
 use crate::document::{Command, Document};
-use crate::viewport::{Camera, Dot, Line};
+use crate::viewport::{Camera, Dot, Line, Preview};
 
 /// Keys held while the pointer acts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -97,6 +97,8 @@ pub struct Marks {
     pub lines: Vec<Line>,
     /// A closed outline on screen, in points (box, lasso).
     pub outline: Vec<Vec2>,
+    /// What a click would fill.
+    pub preview: Option<Preview>,
 }
 
 /// Shape of the mouse pointer.

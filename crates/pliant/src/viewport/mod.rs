@@ -28,5 +28,5 @@ pub use headless::{DeviceWatch, GpuError, Headless, watch_device};
 pub use picture::{picture, picture_on};
 pub use ramp::{energy_color, rigidity_color};
 pub use renderer::{Renderer, samples_for};
-pub use scene::{Coloring, Dot, Line, Shading, SurfaceFrame, Theme, ViewScene};
+pub use scene::{Coloring, Dot, Line, Preview, Shading, SurfaceFrame, Theme, ViewScene};
 pub use shaders::SHADERS;

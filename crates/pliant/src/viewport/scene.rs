@@ -68,6 +68,15 @@ pub struct Line {
     pub on_top: bool,
 }
 
+/// What a click would give to some vertices, shown before it is made.
+#[derive(Clone, Debug)]
+pub struct Preview {
+    /// One flag a vertex.
+    pub vertices: Arc<[bool]>,
+    /// r they would get.
+    pub r: u16,
+}
+
 /// Everything one picture shows. Cheap to clone; the renderer uploads only arrays it has not seen (compared by pointer).
 #[derive(Clone)]
 pub struct ViewScene {
@@ -81,6 +90,10 @@ pub struct ViewScene {
     pub values: Option<Arc<[f32]>>,
     /// One flag a vertex: tinted as selected.
     pub selected: Option<Arc<[bool]>>,
+    /// One flag a vertex: shown paler, since painting leaves it alone.
+    pub locked: Option<Arc<[bool]>>,
+    /// What a click would fill.
+    pub preview: Option<Preview>,
     /// Base color of each vertex (linear), seen plain and through a ramp that is not opaque. `None`: clay.
     pub base_colors: Option<Arc<[[u8; 4]]>>,
     /// Handles, anchors and the like.
@@ -118,6 +131,8 @@ impl ViewScene {
             frame,
             values: None,
             selected: None,
+            locked: None,
+            preview: None,
             base_colors: None,
             dots: Arc::new([]),
             lines: Arc::new([]),
@@ -153,9 +168,19 @@ impl ViewScene {
         Arc::ptr_eq(&self.rigidity, &other.rigidity)
             && same(&self.values, &other.values)
             && same(&self.selected, &other.selected)
+            && same(&self.locked, &other.locked)
+            && same_preview(&self.preview, &other.preview)
             && same(&self.base_colors, &other.base_colors)
             && (self.ramp_max, self.color_opacity) == (other.ramp_max, other.color_opacity)
             && (self.theme, &self.coloring) == (other.theme, &other.coloring)
+    }
+}
+
+fn same_preview(a: &Option<Preview>, b: &Option<Preview>) -> bool {
+    match (a, b) {
+        (Some(a), Some(b)) => Arc::ptr_eq(&a.vertices, &b.vertices) && a.r == b.r,
+        (None, None) => true,
+        _ => false,
     }
 }
 

@@ -2,7 +2,7 @@
 
 use egui::{CollapsingHeader, RichText, ScrollArea, Ui};
 
-use super::{mesh_section, sections, weld};
+use super::{mesh_section, paint, sections, weld};
 use crate::editor::{Action, Session};
 use crate::tools::ToolKind;
 
@@ -20,17 +20,17 @@ pub(in crate::editor) fn inspector(ui: &mut Ui, session: &mut Session) -> Option
         match kind {
             ToolKind::Handle | ToolKind::Anchor => sections::patch(ui, session),
             ToolKind::Select => sections::select(ui, session, &mut chosen),
-            ToolKind::Brush => sections::brush(ui, session),
+            ToolKind::Brush => paint::brush(ui, session),
             ToolKind::Fill => {}
         }
         let about_rigidity = matches!(kind, ToolKind::Brush | ToolKind::Fill);
         if about_rigidity {
             ui.add_space(6.0);
-            sections::rigidity(ui, session, &mut chosen);
+            paint::rigidity(ui, session, &mut chosen);
         }
         ui.separator();
         if !about_rigidity {
-            section(ui, "Rigidity", true, |ui| sections::rigidity(ui, session, &mut chosen));
+            section(ui, "Rigidity", true, |ui| paint::rigidity(ui, session, &mut chosen));
         }
         section(ui, "Handles", true, |ui| sections::handles(ui, session, &mut chosen));
         section(ui, "Solver", true, |ui| sections::solver(ui, session));

@@ -8,6 +8,7 @@ mod legend;
 mod menu;
 mod mesh_section;
 mod notices;
+mod paint;
 mod rail;
 mod sections;
 mod status;

@@ -8,6 +8,12 @@ use glam::Vec3;
 
 /// Unpainted clay, sRGB: light before dark ground, a shade darker before light ground (by eye).
 const CLAY: [[u8; 3]; 2] = [[206, 203, 198], [190, 192, 196]];
+/// Percent of gray in the color of locked vertices, and of light left (by eye: paler, yet the r can be told).
+const LOCKED_GRAY: u32 = 60;
+const LOCKED_LIGHT: u32 = 72;
+/// Percent of the new color in the preview of a fill, and of white over it (by eye: seen on any ramp, also on its own color).
+const PREVIEW_SHARE: u32 = 60;
+const PREVIEW_GLOW: u32 = 28;
 /// Entries of a tabulated ramp; ramps with more rigidities than this are sampled.
 const RAMP_ENTRIES: usize = 256;
 
@@ -34,9 +40,31 @@ pub(super) fn vertex_colors(scene: &ViewScene, n_vertices: usize, out: &mut Vec<
             out.extend((0..n_vertices).map(|vertex| mixed[ramp_entry(scene, vertex)]));
         }
     }
+    lay_over(scene, out);
     if let Some(flags) = &scene.selected {
         for (color, selected) in out.iter_mut().zip(flags.iter()) {
             color[3] = if *selected { 255 } else { 0 };
+        }
+    }
+}
+
+/// Pales what is locked, and shows what a click would fill in the color it would get.
+fn lay_over(scene: &ViewScene, colors: &mut [[u8; 4]]) {
+    if let Some(locked) = &scene.locked {
+        for (color, _) in colors.iter_mut().zip(locked.iter()).filter(|(_, locked)| **locked) {
+            let [r, g, b, _] = color.map(u32::from);
+            let gray = (r + g + b) / 3;
+            let pale = [r, g, b].map(|c| (c * (100 - LOCKED_GRAY) + gray * LOCKED_GRAY) * LOCKED_LIGHT / 10_000);
+            color[..3].copy_from_slice(&pale.map(|c| c as u8));
+        }
+    }
+    if let Some(preview) = &scene.preview {
+        let new = roots(linear(rigidity_color(preview.r, scene.ramp_max))).map(u32::from);
+        for (color, _) in colors.iter_mut().zip(preview.vertices.iter()).filter(|(_, shown)| **shown) {
+            for (c, new) in color.iter_mut().zip(new).take(3) {
+                let mixed = (u32::from(*c) * (100 - PREVIEW_SHARE) + new * PREVIEW_SHARE) / 100;
+                *c = (mixed + (255 - mixed) * PREVIEW_GLOW / 100) as u8;
+            }
         }
     }
 }
@@ -84,7 +112,7 @@ fn rigidity_entry(r: u16, ramp_max: u16) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::super::super::{Camera, Shading, SurfaceFrame};
+    use super::super::super::{Camera, Preview, Shading, SurfaceFrame};
     use super::*;
     use std::sync::Arc;
 
@@ -96,6 +124,8 @@ mod tests {
             rigidity: rigidity.into(),
             values: None,
             selected: None,
+            locked: None,
+            preview: None,
             base_colors: None,
             dots: Arc::new([]),
             lines: Arc::new([]),
@@ -143,6 +173,20 @@ mod tests {
         assert_eq!(colors(&scene, 1)[0], expected);
         scene.coloring = Coloring::Plain;
         assert_eq!(colors(&scene, 1)[0], [255, 255, 255, 0]);
+    }
+
+    #[test]
+    fn locked_vertices_are_paler_and_a_preview_shows_the_color_to_come() {
+        let mut scene = painted(&[1, 1, 6], 6, 1.0);
+        let plain = colors(&scene, 3);
+        scene.locked = Some(Arc::new([true, false, false]));
+        scene.preview = Some(Preview { vertices: Arc::new([false, true, false]), r: 6 });
+        let got = colors(&scene, 3);
+        let spread = |c: [u8; 4]| c[..3].iter().max().unwrap_or(&0) - c[..3].iter().min().unwrap_or(&0);
+        assert!(spread(got[0]) < spread(plain[0]) / 2, "locked: {:?} from {:?}", got[0], plain[0]);
+        let apart = |a: [u8; 4], b: [u8; 4]| (0..3).map(|c| u32::from(a[c].abs_diff(b[c]))).sum::<u32>();
+        assert!(apart(got[1], plain[2]) < apart(got[1], plain[1]), "nearer to r = 6 than to r = 1: {:?}", got[1]);
+        assert_eq!(got[2], plain[2], "all else stays");
     }
 
     #[test]
