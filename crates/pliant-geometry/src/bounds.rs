@@ -32,6 +32,11 @@ impl Bounds {
         Bounds { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 
+    /// Squared distance of a point to the box; 0 inside. Infinite for an empty box.
+    pub(crate) fn distance_squared(&self, point: Vec3) -> f32 {
+        (self.min - point).max(point - self.max).max(Vec3::ZERO).length_squared()
+    }
+
     /// Whether the closed boxes have a point in common.
     pub(crate) fn overlaps(&self, other: &Bounds) -> bool {
         self.min.cmple(other.max).all() && other.min.cmple(self.max).all()

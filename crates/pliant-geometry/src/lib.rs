@@ -10,6 +10,8 @@
 //! |---|---|---|
 //! | [`Bvh`] | O(n log n) | [`refit`](Bvh::refit) O(n); a ray O(log n) |
 //! | [`crossings()`] | – | O(n log n) plus the pairs of boxes that overlap |
+//! | [`FacePatches`] | O(n) | – |
+//! | [`MirrorMap`] | O(n log n) | O(1) |
 //! | [`SurfaceDistance`] | O(n) | O(k log k) for k vertices returned |
 //! | [`VertexNormals`] | O(n) | O(n), parallel |
 //!
@@ -19,7 +21,10 @@
 mod bounds;
 mod bvh;
 mod crossings;
+mod face_neighbors;
+mod face_patches;
 mod incidence;
+mod mirror_map;
 mod ray;
 mod surface_distance;
 mod tree;
@@ -30,6 +35,8 @@ mod test_shapes;
 
 pub use bvh::Bvh;
 pub use crossings::crossings;
+pub use face_patches::FacePatches;
+pub use mirror_map::{MirrorMap, Plane, Seam, Uneven};
 pub use ray::{Hit, Ray};
-pub use surface_distance::SurfaceDistance;
+pub use surface_distance::{Crossing, Growth, SurfaceDistance};
 pub use vertex_normals::VertexNormals;

@@ -15,6 +15,9 @@ use crate::incidence::Incidence;
 use glam::Vec3;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
+use std::sync::Arc;
+
+pub use growth::{Crossing, Growth};
 
 /// Corrections of one vertex: on a plane one or two are needed; the limit only ends ping-pong on crumpled surfaces.
 const MAX_VISITS: u8 = 6;
@@ -25,12 +28,20 @@ const WORTHWHILE: f64 = 1e-5;
 /// cleared between questions.
 #[derive(Clone, Debug)]
 pub struct SurfaceDistance {
-    incidence: Incidence,
+    incidence: Arc<Incidence>,
+    question: Question,
+}
+
+/// A question under way: what the front has reached.
+#[derive(Clone, Debug)]
+struct Question {
     marks: Vec<Mark>,
     /// Number of the current question: marks with another number are blank.
     epoch: u32,
     front: BinaryHeap<Reverse<(OrderedDistance, u32)>>,
     touched: Vec<u32>,
+    /// Vertices past the radius that the front has visited all the same.
+    beyond: Vec<u32>,
 }
 
 /// What is known of a vertex in the question `epoch`.
@@ -62,11 +73,8 @@ impl SurfaceDistance {
     /// O(n): adjacency. Keeps no positions.
     pub fn new(n_vertices: usize, triangles: &[[u32; 3]]) -> SurfaceDistance {
         SurfaceDistance {
-            incidence: Incidence::new(n_vertices, triangles),
-            marks: vec![Mark::default(); n_vertices],
-            epoch: 0,
-            front: BinaryHeap::new(),
-            touched: Vec::new(),
+            incidence: Arc::new(Incidence::new(n_vertices, triangles)),
+            question: Question::new(n_vertices),
         }
     }
 
@@ -82,22 +90,55 @@ impl SurfaceDistance {
         point: Vec3,
         radius: f32,
     ) -> Vec<(u32, f32)> {
-        let start = triangles.get(triangle as usize).copied();
-        let Some((start, at)) = start.and_then(|t| Some((t, corners(positions, t)?))) else {
-            return Vec::new();
-        };
-        if !point.is_finite() || start.iter().any(|&v| v as usize >= self.marks.len()) {
+        let surface = Posed { incidence: &self.incidence, positions, triangles };
+        if !self.question.start(&surface, triangle, point) {
             return Vec::new();
         }
-        self.start_question();
-        for (v, p) in start.into_iter().zip(at) {
-            self.offer(v, (p.as_dvec3() - point.as_dvec3()).length());
-        }
-        self.march(positions, triangles, f64::from(radius));
-        self.answer(radius)
+        self.question.march(&surface, f64::from(radius), usize::MAX);
+        self.question.answer(radius)
     }
 
-    fn start_question(&mut self) {
+    /// A front that leaves a point and can be sent on as far as needed, for a radius that grows under the hand. `None` for
+    /// a triangle that is absent. O(n) once; the adjacency is shared.
+    pub fn growth(&self, positions: &[Vec3], triangles: &[[u32; 3]], triangle: u32, point: Vec3) -> Option<Growth> {
+        let surface = Posed { incidence: &self.incidence, positions, triangles };
+        let mut question = Question::new(self.question.marks.len());
+        let radius = f64::NEG_INFINITY;
+        question.start(&surface, triangle, point).then(|| Growth {
+            incidence: self.incidence.clone(),
+            question,
+            radius,
+        })
+    }
+}
+
+/// A surface at one moment.
+struct Posed<'a> {
+    incidence: &'a Incidence,
+    positions: &'a [Vec3],
+    triangles: &'a [[u32; 3]],
+}
+
+impl Question {
+    fn new(n_vertices: usize) -> Question {
+        Question {
+            marks: vec![Mark::default(); n_vertices],
+            epoch: 0,
+            front: BinaryHeap::new(),
+            touched: Vec::new(),
+            beyond: Vec::new(),
+        }
+    }
+
+    /// Blank marks, and the corners of the triangle reached. Whether there is such a triangle.
+    fn start(&mut self, surface: &Posed<'_>, triangle: u32, point: Vec3) -> bool {
+        let start = surface.triangles.get(triangle as usize).copied();
+        let Some((start, at)) = start.and_then(|t| Some((t, corners(surface.positions, t)?))) else {
+            return false;
+        };
+        if !point.is_finite() || start.iter().any(|&v| v as usize >= self.marks.len()) {
+            return false;
+        }
         self.epoch = self.epoch.wrapping_add(1);
         if self.epoch == 0 {
             self.marks.fill(Mark::default());
@@ -105,31 +146,51 @@ impl SurfaceDistance {
         }
         self.front.clear();
         self.touched.clear();
+        self.beyond.clear();
+        for (v, p) in start.into_iter().zip(at) {
+            self.offer(v, (p.as_dvec3() - point.as_dvec3()).length());
+        }
+        true
     }
 
-    /// Vertices in order of distance. Those past the radius are still visited, without spreading further: they support
-    /// their neighbors inside.
-    fn march(&mut self, positions: &[Vec3], triangles: &[[u32; 3]], radius: f64) {
+    /// Vertices in order of distance, `most` at a time; whether the front has come to the radius. Those past it are
+    /// still visited, without spreading further: they support their neighbors inside.
+    fn march(&mut self, surface: &Posed<'_>, radius: f64, most: usize) -> bool {
+        let mut n_visited = 0;
         while let Some(Reverse((OrderedDistance(distance), v))) = self.front.pop() {
             let mark = &mut self.marks[v as usize];
             if distance > mark.distance || mark.visits >= MAX_VISITS {
                 continue;
             }
+            if n_visited == most {
+                self.front.push(Reverse((OrderedDistance(distance), v)));
+                return false;
+            }
+            n_visited += 1;
             mark.visits += 1;
-            for i in 0..self.incidence.around(v as usize).len() {
-                let triangle = triangles.get(self.incidence.around(v as usize)[i] as usize);
-                let Some((ids, at)) = triangle.and_then(|&t| Some((t, corners(positions, t)?))) else {
-                    continue;
-                };
-                let corner = ids.iter().position(|&id| id == v).unwrap_or(0);
-                for (b, c) in [((corner + 1) % 3, (corner + 2) % 3), ((corner + 2) % 3, (corner + 1) % 3)] {
-                    let lengths =
-                        [(corner, b), (corner, c), (b, c)].map(|(i, j)| at[i].as_dvec3().distance(at[j].as_dvec3()));
-                    let through = self.visited(ids[b]).and_then(|known| across(lengths, distance, known));
-                    let reached = through.unwrap_or(distance + lengths[1]);
-                    if reached <= radius || distance <= radius {
-                        self.offer(ids[c], reached);
-                    }
+            if distance > radius {
+                self.beyond.push(v);
+            }
+            self.spread(surface, radius, (v, distance));
+        }
+        true
+    }
+
+    /// Offers distances across the triangles around a vertex that the front has come to.
+    fn spread(&mut self, surface: &Posed<'_>, radius: f64, (v, distance): (u32, f64)) {
+        for &triangle in surface.incidence.around(v as usize) {
+            let triangle = surface.triangles.get(triangle as usize);
+            let Some((ids, at)) = triangle.and_then(|&t| Some((t, corners(surface.positions, t)?))) else {
+                continue;
+            };
+            let corner = ids.iter().position(|&id| id == v).unwrap_or(0);
+            for (b, c) in [((corner + 1) % 3, (corner + 2) % 3), ((corner + 2) % 3, (corner + 1) % 3)] {
+                let lengths =
+                    [(corner, b), (corner, c), (b, c)].map(|(i, j)| at[i].as_dvec3().distance(at[j].as_dvec3()));
+                let through = self.visited(ids[b]).and_then(|known| across(lengths, distance, known));
+                let reached = through.unwrap_or(distance + lengths[1]);
+                if reached <= radius || distance <= radius {
+                    self.offer(ids[c], reached);
                 }
             }
         }
@@ -176,5 +237,6 @@ fn across([ab, ac, bc]: [f64; 3], from_a: f64, from_b: f64) -> Option<f64> {
     (crossing >= 0.0 && crossing <= ab).then(|| (cx - sx).hypot(height))
 }
 
+mod growth;
 #[cfg(test)]
 mod tests;

@@ -7,6 +7,7 @@
 //! splits; what is asked here is a few rays per frame.
 
 use crate::bounds::Bounds;
+use glam::Vec3;
 use rayon::prelude::*;
 
 /// Items per leaf: reading a few boxes in a row costs less than another level. By eye; 2 to 8 are alike.
@@ -84,6 +85,35 @@ impl Tree {
         let leaves = Leaves { n_items: self.items.len(), n_leaves: self.n_leaves };
         let leaf = node - first_leaf;
         Node::Leaf(&self.items[leaves.first_item(leaf)..leaves.first_item(leaf + 1)])
+    }
+
+    /// The item whose place is nearest to `point`, among those within `reach`; the lowest of equally near ones. Items must
+    /// lie in the boxes the tree was built from.
+    pub(crate) fn nearest(&self, point: Vec3, reach: f32, place: impl Fn(u32) -> Vec3) -> Option<u32> {
+        let mut best = (if reach >= 0.0 { reach * reach } else { -1.0 }, None);
+        let mut open: Vec<(f32, usize)> = self.root().map(|root| (0.0, root)).into_iter().collect();
+        while let Some((far, node)) = open.pop() {
+            if far > best.0 {
+                continue;
+            }
+            match self.node(node) {
+                Node::Inner(children) => {
+                    let mut near = children.map(|child| (self.bounds[child].distance_squared(point), child));
+                    near.sort_by(|a, b| b.0.total_cmp(&a.0));
+                    open.extend(near); // the nearer one on top
+                }
+                Node::Leaf(items) => {
+                    for &item in items {
+                        let distance = place(item).distance_squared(point);
+                        let is_first = best.1.is_none_or(|known| item < known);
+                        if distance < best.0 || distance == best.0 && is_first {
+                            best = (distance, Some(item));
+                        }
+                    }
+                }
+            }
+        }
+        best.1
     }
 
     /// Calls `visit` with each item whose leaf's box overlaps `bounds`.
@@ -172,7 +202,6 @@ fn sort_by_medians(items: &mut [u32], leaves: Leaves, range: std::ops::Range<usi
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glam::Vec3;
 
     #[test]
     fn every_item_is_found_whatever_their_number() {
@@ -186,6 +215,24 @@ mod tests {
                 assert!(found, "item {i} of {n}");
             }
         }
+    }
+
+    #[test]
+    fn the_nearest_item_is_that_of_a_plain_search() {
+        let mut noise = crate::test_shapes::Noise(8);
+        let mut places: Vec<Vec3> = (0..300).map(|_| noise.point()).collect();
+        places.extend_from_within(..20); // twice at the same place
+        let tree = Tree::new(&places.iter().map(|&p| Bounds { min: p, max: p }).collect::<Vec<_>>());
+        for reach in [0.05, 0.3, f32::INFINITY] {
+            for _ in 0..200 {
+                let point = noise.point();
+                let by_distance = |&i: &u32| places[i as usize].distance_squared(point);
+                let expected = (0..places.len() as u32).min_by(|a, b| by_distance(a).total_cmp(&by_distance(b)));
+                let expected = expected.filter(|i| by_distance(i) <= reach * reach);
+                assert_eq!(tree.nearest(point, reach, |i| places[i as usize]), expected, "{point} within {reach}");
+            }
+        }
+        assert_eq!(Tree::new(&[]).nearest(Vec3::ZERO, 1.0, |_| Vec3::ZERO), None);
     }
 
     #[test]

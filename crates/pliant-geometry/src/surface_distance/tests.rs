@@ -80,7 +80,7 @@ fn a_sheet_near_in_space_but_far_on_the_surface_is_not_reached() {
 fn questions_do_not_disturb_each_other() {
     let (positions, triangles) = square(31, 0.3, &mut Noise(9));
     let mut used = SurfaceDistance::new(positions.len(), &triangles);
-    used.epoch = u32::MAX - 20;
+    used.question.epoch = u32::MAX - 20;
     for i in 0..40 {
         let source = i * 37 % triangles.len() as u32;
         let point = positions[triangles[source as usize][1] as usize];
@@ -110,4 +110,57 @@ fn broken_surfaces_and_questions_give_what_can_be_reached() {
             "{triangle} {point} {radius}"
         );
     }
+}
+
+#[test]
+fn a_growing_front_reaches_what_a_question_for_each_radius_would() {
+    let (mut positions, triangles) = square(41, 0.25, &mut Noise(11));
+    positions.iter_mut().for_each(|p| p.z = (7.0 * p.x).sin() * 0.1);
+    let mut distances = SurfaceDistance::new(positions.len(), &triangles);
+    let point = triangles[900].iter().map(|&v| positions[v as usize]).sum::<Vec3>() / 3.0;
+    let mut growth = distances.growth(&positions, &triangles, 900, point).expect("a triangle");
+    for radius in [0.0, 0.02, 0.1, 0.11, 0.4, 2.0] {
+        // A few vertices at a time.
+        while !growth.grow(&positions, &triangles, radius, 50) {}
+        let mut got: Vec<(u32, f32)> = growth.reached().filter(|&(_, d)| d <= radius).collect();
+        got.sort_unstable_by_key(|&(v, _)| v);
+        let mut expected = distances.within(&positions, &triangles, 900, point, radius);
+        expected.sort_unstable_by_key(|&(v, _)| v);
+        let vertices = |found: &[(u32, f32)]| found.iter().map(|&(v, _)| v).collect::<Vec<_>>();
+        assert_eq!(vertices(&got), vertices(&expected), "radius {radius}");
+        for (&(v, got), &(_, expected)) in got.iter().zip(&expected) {
+            assert!((got - expected).abs() <= 1e-3 * expected, "vertex {v}: got {got}, expected {expected}");
+        }
+    }
+    assert_eq!(growth.reached().filter(|&(_, d)| d <= 2.0).count(), positions.len());
+}
+
+#[test]
+fn the_line_around_what_is_reached_is_a_circle_on_a_plane() {
+    let (positions, triangles) = square(41, 0.2, &mut Noise(12));
+    let distances = SurfaceDistance::new(positions.len(), &triangles);
+    let point = triangles[1640].iter().map(|&v| positions[v as usize]).sum::<Vec3>() / 3.0;
+    let mut growth = distances.growth(&positions, &triangles, 1640, point).expect("a triangle");
+    let mut lines = Vec::new();
+    for radius in [0.3, 0.15] {
+        while !growth.grow(&positions, &triangles, radius, usize::MAX) {}
+        growth.line(&positions, &triangles, radius, &mut lines);
+        let at = |c: &Crossing| positions[c.edge[0] as usize].lerp(positions[c.edge[1] as usize], c.along);
+        let length: f32 = lines.iter().map(|[a, b]| at(a).distance(at(b))).sum();
+        let around = 2.0 * PI * radius;
+        assert!((length - around).abs() < 0.01 * around, "radius {radius}: a line of {length}, not {around}");
+        for end in lines.as_flattened() {
+            let off = (at(end).distance(point) - radius).abs();
+            // Distance is taken as linear along an edge of 1/40: off by at most edge² / 8 r.
+            assert!(off < 0.01 * radius + 0.002, "radius {radius}: {off} beside the circle");
+        }
+    }
+}
+
+#[test]
+fn nothing_grows_from_a_triangle_that_is_absent() {
+    let distances = SurfaceDistance::new(3, &[[0, 1, 2]]);
+    let positions = [Vec3::ZERO, Vec3::X, Vec3::NAN];
+    assert!(distances.growth(&positions, &[[0, 1, 2]], 0, Vec3::ZERO).is_none());
+    assert!(distances.growth(&positions, &[[0, 1, 2]], 7, Vec3::ZERO).is_none());
 }
