@@ -1,11 +1,10 @@
 //! The wishes that change a scene.
 
-use std::sync::Arc;
-
 use glam::{DAffine3, DVec3};
 use pliant_solver::{LooseComponents, Rigidity, RigidityError, VertexId, Weights};
 
-use super::{Group, GroupId, GroupKind, Scene, Selection};
+use super::grouping::{add, hold, merge, remove};
+use super::{ActiveGroups, Group, GroupColor, GroupId, GroupKind, Scene, Selection};
 
 /// How newly selected vertices join those already selected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,14 +42,28 @@ pub enum Command {
         /// Must be finite.
         motion: DAffine3,
     },
+    /// Gives several groups new motions at once.
+    MoveSeveral(Vec<(GroupId, DAffine3)>),
+    /// Brings vertices into a group, held where they are now; vertices of other groups change over.
+    AddToGroup(GroupId, Vec<VertexId>),
+    /// Lets some vertices of a group go.
+    RemoveFromGroup(GroupId, Vec<VertexId>),
+    /// Makes one group of several: the last of them, where all are now.
+    Merge(Vec<GroupId>),
+    /// Changes the color of a group's dots.
+    SetColor(GroupId, GroupColor),
+    /// Shows or hides a group's dots.
+    ShowDots(GroupId, bool),
     /// Puts a group back to the rest positions of its vertices.
     ReturnToRest(GroupId),
     /// Makes a handle an anchor or back.
     SetKind(GroupId, GroupKind),
     /// Gives a group another name.
     Rename(GroupId, String),
-    /// Shows the gizmo on a group, or on none. Not a step of the history.
+    /// Works on one group, or on none. Not a step of the history.
     Activate(Option<GroupId>),
+    /// Works on several groups, the last of which leads. Not a step of the history.
+    ActivateSeveral(Vec<GroupId>),
     /// Sets r of some vertices.
     Paint {
         /// Vertices and their new r ≥ 1.
@@ -131,11 +144,18 @@ impl Command {
     pub fn name(&self) -> &'static str {
         match self {
             Command::Begin(name) => name,
-            Command::Commit | Command::Cancel | Command::Activate(_) => "",
+            Command::Commit | Command::Cancel | Command::Activate(_) | Command::ActivateSeveral(_) => "",
             Command::Hold { kind: GroupKind::Handle, .. } => "Place handle",
             Command::Hold { kind: GroupKind::Anchor, .. } => "Place anchor",
             Command::Release(_) => "Delete handle",
             Command::Move { .. } => "Move handle",
+            Command::MoveSeveral(_) => "Move handles",
+            Command::AddToGroup(..) => "Add to handle",
+            Command::RemoveFromGroup(..) => "Remove from handle",
+            Command::Merge(_) => "Merge handles",
+            Command::SetColor(..) => "Color handle",
+            Command::ShowDots(_, true) => "Show dots",
+            Command::ShowDots(_, false) => "Hide dots",
             Command::ReturnToRest(_) => "Return handle to rest",
             Command::SetKind(..) => "Change handle kind",
             Command::Rename(..) => "Rename handle",
@@ -168,21 +188,26 @@ pub(super) fn changed(scene: &Scene, command: Command, around: Surroundings<'_>)
     let mut next = scene.clone();
     match command {
         Command::Begin(_) | Command::Commit | Command::Cancel => {}
-        Command::Hold { kind, vertices } => hold(&mut next, kind, vertices, around)?,
+        Command::Hold { kind, vertices } => {
+            let held = some_of(vertices, around.rest.len())?;
+            hold(&mut next, kind, &held, around);
+        }
+        Command::AddToGroup(id, vertices) => add(&mut next, id, &some_of(vertices, around.rest.len())?, around.now)?,
+        Command::RemoveFromGroup(id, vertices) => remove(&mut next, id, &Selection::new(vertices))?,
+        Command::Merge(ids) => merge(&mut next, &ids)?,
         Command::Release(ids) => {
             next.groups = scene.groups.iter().filter(|group| !ids.contains(&group.id)).cloned().collect();
-            next.active = next.active.filter(|id| !ids.contains(id));
+            next.active.retain(|id| !ids.contains(&id));
         }
-        Command::Move { group, motion } => {
-            if !motion.is_finite() {
-                return Err(CommandError::NotFinite);
-            }
-            edit_group(&mut next, group, |group| group.motion = motion)?;
-        }
+        Command::Move { group, motion } => set_motions(&mut next, &[(group, motion)])?,
+        Command::MoveSeveral(motions) => set_motions(&mut next, &motions)?,
+        Command::SetColor(id, color) => edit_group(&mut next, id, |group| group.color = color)?,
+        Command::ShowDots(id, shown) => edit_group(&mut next, id, |group| group.dots = shown)?,
         Command::ReturnToRest(id) => edit_group(&mut next, id, |group| to_rest(group, around.rest))?,
-        Command::SetKind(id, kind) => edit_group(&mut next, id, |group| group.kind = kind)?,
+        Command::SetKind(id, kind) => edit_group(&mut next, id, |group| set_kind(group, kind))?,
         Command::Rename(id, name) => edit_group(&mut next, id, |group| group.name = name)?,
-        Command::Activate(id) => next.active = id.filter(|&id| scene.group(id).is_some()),
+        Command::Activate(id) => activate(&mut next, id.into_iter().collect()),
+        Command::ActivateSeveral(ids) => activate(&mut next, ids),
         Command::Paint { values } => paint(&mut next, &values)?,
         Command::Fill { vertices, r } => {
             let values: Vec<_> = vertices.into_iter().map(|v| (v, r)).collect();
@@ -218,40 +243,38 @@ pub(super) fn changed(scene: &Scene, command: Command, around: Surroundings<'_>)
     Ok(next)
 }
 
-fn hold(
-    scene: &mut Scene,
-    kind: GroupKind,
-    vertices: Vec<VertexId>,
-    around: Surroundings<'_>,
-) -> Result<(), CommandError> {
-    check_vertices(&vertices, around.rest.len())?;
-    let held = Selection::new(vertices);
-    if held.is_empty() {
-        return Err(CommandError::NothingToHold);
+fn activate(scene: &mut Scene, mut ids: Vec<GroupId>) {
+    ids.retain(|&id| scene.group(id).is_some());
+    let active = ActiveGroups::new(ids);
+    if active != scene.active {
+        scene.active = active;
     }
-    let mut groups: Vec<Group> = scene.groups.iter().filter_map(|group| without(group, &held)).collect();
-    let id = GroupId(*around.next_group);
-    *around.next_group += 1;
-    let base = held.vertices().iter().map(|v| around.now[v.index()]).collect();
-    let name = match kind {
-        GroupKind::Handle => format!("Handle {}", id.0),
-        GroupKind::Anchor => format!("Anchor {}", id.0),
-    };
-    groups.push(Group { id, name, kind, vertices: held.vertices().into(), base, motion: DAffine3::IDENTITY });
+}
+
+fn set_motions(scene: &mut Scene, motions: &[(GroupId, DAffine3)]) -> Result<(), CommandError> {
+    let mut groups = scene.groups.to_vec();
+    for &(id, motion) in motions {
+        if !motion.is_finite() {
+            return Err(CommandError::NotFinite);
+        }
+        groups.iter_mut().find(|group| group.id == id).ok_or(CommandError::NoSuchGroup(id.0))?.motion = motion;
+    }
     scene.groups = groups.into();
-    scene.active = Some(id);
     Ok(())
 }
 
-/// `group` without the vertices in `taken`, or nothing if none is left.
-fn without(group: &Group, taken: &Selection) -> Option<Group> {
-    if !group.vertices.iter().any(|&v| taken.contains(v)) {
-        return Some(group.clone());
+/// A group in the color of its old kind takes on the color of the new one.
+fn set_kind(group: &mut Group, kind: GroupKind) {
+    if group.color == GroupColor::of_kind(group.kind) {
+        group.color = GroupColor::of_kind(kind);
     }
-    let kept = || group.vertices.iter().zip(group.base.iter()).filter(|&(&v, _)| !taken.contains(v));
-    let vertices: Arc<[VertexId]> = kept().map(|(&v, _)| v).collect();
-    let base = kept().map(|(_, &p)| p).collect();
-    (!vertices.is_empty()).then(|| Group { vertices, base, ..group.clone() })
+    group.kind = kind;
+}
+
+fn some_of(vertices: Vec<VertexId>, n_vertices: usize) -> Result<Selection, CommandError> {
+    check_vertices(&vertices, n_vertices)?;
+    let some = Selection::new(vertices);
+    if some.is_empty() { Err(CommandError::NothingToHold) } else { Ok(some) }
 }
 
 fn to_rest(group: &mut Group, rest: &[DVec3]) {

@@ -108,7 +108,7 @@ mod tests {
             groups: [].into(),
             selection: Selection::default(),
             locked: Selection::default(),
-            active: None,
+            active: crate::document::ActiveGroups::default(),
             weights: Weights::default(),
             loose: LooseComponents::default(),
         };

@@ -7,8 +7,12 @@
 mod commands;
 mod fill;
 mod findings;
+mod group;
+mod grouping;
 mod history;
 mod model;
+mod motion;
+mod palette;
 mod scene;
 
 mod state;
@@ -16,8 +20,11 @@ mod state;
 pub use commands::{Command, CommandError, SelectMode};
 pub use fill::region_of_equal_rigidity;
 pub use findings::{Finding, caution, findings};
+pub use group::{ActiveGroups, Group, GroupId, GroupKind, held_by};
 pub use history::{History, Snapshot};
 pub(crate) use model::bounds_of;
 pub use model::{Model, ModelError};
-pub use scene::{Group, GroupId, GroupKind, Scene, Selection, held_by};
+pub use motion::{Change, Placement, rotation_of};
+pub use palette::GroupColor;
+pub use scene::{Scene, Selection};
 pub use state::{Document, Pose};

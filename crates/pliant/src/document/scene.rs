@@ -2,75 +2,9 @@
 
 use std::sync::Arc;
 
-use glam::{DAffine3, DVec3};
 use pliant_solver::{LooseComponents, Rigidity, VertexId, Weights};
 
-use super::Model;
-
-/// Names a group for as long as the document lives; never used twice.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct GroupId(pub u32);
-
-/// What a group of held vertices is for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum GroupKind {
-    /// Moved by the user.
-    Handle,
-    /// Holds the surface where it is.
-    Anchor,
-}
-
-/// Vertices whose positions are prescribed together.
-#[derive(Clone, Debug)]
-pub struct Group {
-    /// Its lasting name for commands.
-    pub id: GroupId,
-    /// Its name for people.
-    pub name: String,
-    /// Handle or anchor.
-    pub kind: GroupKind,
-    /// Held surface points, sorted; no vertex is in two groups.
-    pub vertices: Arc<[VertexId]>,
-    /// World positions of `vertices` when the group was placed.
-    pub base: Arc<[DVec3]>,
-    /// Motion of `base` since then, world space.
-    pub motion: DAffine3,
-}
-
-/// Groups share their lists with older states of the scene, so most comparisons end at the pointers.
-impl PartialEq for Group {
-    fn eq(&self, other: &Group) -> bool {
-        self.id == other.id
-            && self.kind == other.kind
-            && self.motion == other.motion
-            && self.name == other.name
-            && (Arc::ptr_eq(&self.vertices, &other.vertices) || self.vertices == other.vertices)
-            && (Arc::ptr_eq(&self.base, &other.base) || self.base == other.base)
-    }
-}
-
-impl Group {
-    /// World position that the solver must give to each of `vertices`.
-    pub fn targets(&self) -> impl Iterator<Item = DVec3> + '_ {
-        self.base.iter().map(|&p| if self.motion == DAffine3::IDENTITY { p } else { self.motion.transform_point3(p) })
-    }
-
-    /// Mean of the base positions: the pivot of rotations and scalings.
-    pub fn base_center(&self) -> DVec3 {
-        self.base.iter().sum::<DVec3>() / self.base.len().max(1) as f64
-    }
-
-    /// Where the middle of the group is now, world space.
-    pub fn center(&self) -> DVec3 {
-        self.motion.transform_point3(self.base_center())
-    }
-}
-
-/// Held vertices and the world positions they must take, group by group.
-pub fn held_by(groups: &[Group]) -> (Vec<VertexId>, Vec<DVec3>) {
-    let vertices = groups.iter().flat_map(|group| group.vertices.iter().copied()).collect();
-    (vertices, groups.iter().flat_map(Group::targets).collect())
-}
+use super::{ActiveGroups, Group, GroupId, Model};
 
 /// A set of surface points, sorted. Cheap to clone.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -111,8 +45,8 @@ pub struct Scene {
     pub selection: Selection,
     /// Surface points whose r no brush, fill or learning changes.
     pub locked: Selection,
-    /// The group whose gizmo is shown.
-    pub active: Option<GroupId>,
+    /// The groups that are being worked on.
+    pub active: ActiveGroups,
     /// Edge weights of the energy.
     pub weights: Weights,
     /// What parts without handles do.
@@ -127,7 +61,7 @@ impl Scene {
             groups: Arc::new([]),
             selection: Selection::default(),
             locked: Selection::default(),
-            active: None,
+            active: ActiveGroups::default(),
             weights: Weights::default(),
             // Eyes and buttons are parts of their own in most files, and nobody wants them left behind.
             loose: LooseComponents::FollowNearest,
@@ -139,14 +73,19 @@ impl Scene {
         self.groups.iter().find(|group| group.id == id)
     }
 
-    /// The active group, if any.
+    /// The leading active group, if any.
     pub fn active_group(&self) -> Option<&Group> {
-        self.group(self.active?)
+        self.group(self.active.lead()?)
+    }
+
+    /// All active groups, the leading one last.
+    pub fn active_groups(&self) -> impl Iterator<Item = &Group> {
+        self.active.ids().iter().filter_map(|&id| self.group(id))
     }
 
     /// The group that holds `v`, if any. O(groups · log vertices).
     pub fn group_holding(&self, v: VertexId) -> Option<&Group> {
-        self.groups.iter().find(|group| group.vertices.binary_search(&v).is_ok())
+        self.groups.iter().find(|group| group.holds(v))
     }
 
     /// Whether the solver would be asked for the same: selection, names and the like do not matter to it.

@@ -106,7 +106,7 @@ impl Document {
 
     fn change(&mut self, command: Command) -> Result<(), CommandError> {
         let name = command.name();
-        let is_step = !matches!(command, Command::Activate(_));
+        let is_step = !matches!(command, Command::Activate(_) | Command::ActivateSeveral(_));
         let resets = command == Command::ResetPose;
         let rest = self.model.mesh.positions();
         let around = Surroundings { now: &self.pose.positions, rest, next_group: &mut self.next_group };

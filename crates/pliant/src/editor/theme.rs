@@ -6,10 +6,6 @@ use crate::viewport::Theme;
 
 /// The one color that means *this one*.
 pub(super) const ACCENT: Color32 = Color32::from_rgb(240, 160, 60);
-/// Handles, as in the paper's figures.
-pub(super) const HANDLE: [u8; 4] = [255, 214, 10, 255];
-/// Anchors.
-pub(super) const ANCHOR: [u8; 4] = [38, 42, 50, 255];
 
 /// Colors that differ between themes.
 pub(super) struct Palette {

@@ -368,11 +368,12 @@ fn group_dots(session: &Session) -> Vec<Dot> {
     let scene = open.document.scene();
     let positions = &open.surface.frame().positions;
     let mut dots = Vec::new();
-    for group in scene.groups.iter() {
-        let color = if group.kind == GroupKind::Handle { theme::HANDLE } else { theme::ANCHOR };
+    for group in scene.groups.iter().filter(|group| group.dots) {
+        let [red, green, blue] = group.color.rgb();
+        let color = [red, green, blue, 255];
         let dot = |v: &VertexId| Dot { position: positions[v.index()], color, radius_px: 2.5 };
         dots.extend(group.vertices.iter().step_by(group.vertices.len().div_ceil(DOTS_PER_GROUP)).map(dot));
-        let radius_px = if scene.active == Some(group.id) { 8.0 } else { 6.0 };
+        let radius_px = if scene.active.contains(group.id) { 8.0 } else { 6.0 };
         // The middle of anchors may lie far from all of them; a handle is taken there.
         if group.kind == GroupKind::Handle {
             let position = open.document.model().to_view(group.center());

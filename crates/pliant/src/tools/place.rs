@@ -157,9 +157,11 @@ impl PlaceTool {
             State::Idle { hover: Some(Target::Group(id)) } => Some(id),
             _ => None,
         };
-        match hovered.or(context.document.scene().active) {
-            Some(id) => vec![Command::Release(vec![id])].into(),
-            None => Reaction::default(),
+        let active = &context.document.scene().active;
+        match hovered {
+            Some(id) if !active.contains(id) => vec![Command::Release(vec![id])].into(),
+            _ if active.is_empty() => Reaction::default(),
+            _ => vec![Command::Release(active.ids().to_vec())].into(),
         }
     }
 }

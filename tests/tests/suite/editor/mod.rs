@@ -3,6 +3,7 @@
 mod actions;
 mod bending;
 mod files;
+mod handles;
 mod learning;
 mod monkey;
 mod painting;

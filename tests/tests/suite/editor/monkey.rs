@@ -60,7 +60,7 @@ fn act(session: &mut Session, dice: &mut Dice) {
 fn command(session: &mut Session, dice: &mut Dice) {
     let group = document(session).scene().groups.first().map(|group| group.id);
     let vertex = VertexId(dice.below(500) as u32); // some do not exist
-    let command = match (dice.below(9), group) {
+    let command = match (dice.below(13), group) {
         (0, Some(id)) => Command::ReturnToRest(id),
         (1, Some(id)) => Command::SetKind(id, GroupKind::Anchor),
         (2, Some(id)) => Command::Release(vec![id]),
@@ -68,7 +68,14 @@ fn command(session: &mut Session, dice: &mut Dice) {
         (4, _) => Command::ResetPose,
         (5, _) => Command::FillAll(dice.below(4) as u16),
         (6, _) => Command::Select(vec![vertex], SelectMode::Add),
-        (7, _) => Command::SetLoose(pliant_solver::LooseComponents::KeepAtRest),
+        (7, Some(id)) => Command::AddToGroup(id, vec![vertex]),
+        (8, Some(id)) => Command::RemoveFromGroup(id, vec![vertex]),
+        (9, Some(_)) => Command::Merge(document(session).scene().groups.iter().map(|group| group.id).take(3).collect()),
+        (10, Some(_)) => {
+            let all = document(session).scene().groups.iter().map(|group| group.id).collect();
+            Command::ActivateSeveral(all)
+        }
+        (11, _) => Command::SetLoose(pliant_solver::LooseComponents::KeepAtRest),
         _ => Command::Hold { kind: GroupKind::Handle, vertices: vec![vertex] },
     };
     session.apply(command);

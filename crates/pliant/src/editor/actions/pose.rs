@@ -30,7 +30,7 @@ fn holds_handles(kind: ToolKind) -> bool {
 }
 
 fn no_handle_to_delete(session: &Session) -> Option<&'static str> {
-    let has_one = holds_handles(session.tool_kind()) || session.document()?.scene().active.is_some();
+    let has_one = holds_handles(session.tool_kind()) || !session.document()?.scene().active.is_empty();
     (!has_one).then_some("Choose a handle in the list first")
 }
 
@@ -38,7 +38,7 @@ fn no_handle_to_delete(session: &Session) -> Option<&'static str> {
 fn delete_handle(session: &mut Session) {
     if holds_handles(session.tool_kind()) {
         session.input(Input::Key(ToolKey::Delete));
-    } else if let Some(id) = session.document().and_then(|document| document.scene().active) {
-        session.apply(Command::Release(vec![id]));
+    } else if let Some(ids) = session.document().map(|document| document.scene().active.ids().to_vec()) {
+        session.apply(Command::Release(ids));
     }
 }

@@ -49,7 +49,7 @@ pub(super) fn handles(ui: &mut Ui, session: &mut Session, chosen: &mut Option<Ac
     let Some(document) = session.document() else {
         return;
     };
-    let (groups, active) = (document.scene().groups.clone(), document.scene().active);
+    let (groups, active) = (document.scene().groups.clone(), document.scene().active.lead());
     if groups.is_empty() {
         ui.label(RichText::new("None yet. Hold one part with an anchor, pull another with a handle.").weak());
         return;
@@ -73,7 +73,7 @@ pub(super) fn handles(ui: &mut Ui, session: &mut Session, chosen: &mut Option<Ac
 
 fn group_row(ui: &mut Ui, group: &Group, is_active: bool, commands: &mut Vec<Command>) {
     ui.horizontal(|ui| {
-        let [red, green, blue, _] = if group.kind == GroupKind::Handle { theme::HANDLE } else { theme::ANCHOR };
+        let [red, green, blue] = group.color.rgb();
         let (rect, _) = ui.allocate_exact_size(egui::vec2(12.0, 12.0), egui::Sense::hover());
         ui.painter().circle_filled(rect.center(), 5.0, egui::Color32::from_rgb(red, green, blue));
         ui.painter().circle_stroke(rect.center(), 5.0, ui.visuals().widgets.noninteractive.fg_stroke);
