@@ -12,6 +12,7 @@
 //! | [`crossings()`] | – | O(n log n) plus the pairs of boxes that overlap |
 //! | [`FacePatches`] | O(n) | – |
 //! | [`MirrorMap`] | O(n log n) | O(1) |
+//! | [`edge_stretch`], [`largest_difference`] | – | O(n) |
 //! | [`SurfaceDistance`] | O(n) | O(k log k) for k vertices returned |
 //! | [`VertexNormals`] | O(n) | O(n), parallel |
 //!
@@ -25,6 +26,7 @@ mod face_neighbors;
 mod face_patches;
 mod incidence;
 mod mirror_map;
+mod measures;
 mod ray;
 mod surface_distance;
 mod tree;
@@ -37,6 +39,7 @@ pub use bvh::Bvh;
 pub use crossings::crossings;
 pub use face_patches::FacePatches;
 pub use mirror_map::{MirrorMap, Plane, Seam, Uneven};
+pub use measures::{edge_stretch, largest_difference};
 pub use ray::{Hit, Ray};
 pub use surface_distance::{Crossing, Growth, SurfaceDistance};
 pub use vertex_normals::VertexNormals;

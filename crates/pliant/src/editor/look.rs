@@ -2,6 +2,7 @@
 
 use pliant_solver::Rigidity;
 
+use crate::solving::Measure;
 use crate::viewport::{Shading, Theme};
 
 /// r at the stiff end of the color ramp: the paper's 6, or more if the surface has more.
@@ -16,8 +17,66 @@ pub enum ColorBy {
     Plain,
     /// r.
     Rigidity,
+    /// Soft or stiff, in two colors.
+    SoftStiff,
     /// Energy of each vertex (paper Fig. 3).
     Energy,
+    /// Largest difference of that energy to a neighboring vertex (paper Fig. 3c, e, g).
+    EnergyDifference,
+    /// How far edges are from their length at rest.
+    Stretch,
+}
+
+impl ColorBy {
+    /// Every coloring, in the order of menus.
+    pub const ALL: [ColorBy; 6] = [
+        ColorBy::Plain,
+        ColorBy::Rigidity,
+        ColorBy::SoftStiff,
+        ColorBy::Energy,
+        ColorBy::EnergyDifference,
+        ColorBy::Stretch,
+    ];
+
+    /// Its name in lists.
+    pub const fn label(self) -> &'static str {
+        match self {
+            ColorBy::Plain => "File colors",
+            ColorBy::Rigidity => "Rigidity",
+            ColorBy::SoftStiff => "Soft / stiff",
+            ColorBy::Energy => "Energy",
+            ColorBy::EnergyDifference => "Energy difference",
+            ColorBy::Stretch => "Edge stretch",
+        }
+    }
+
+    /// One sentence more.
+    pub const fn tooltip(self) -> &'static str {
+        match self {
+            ColorBy::Plain => "Colors and textures of the file, clay where it has none",
+            ColorBy::Rigidity => "How stiff each vertex is, from soft blue to stiff red",
+            ColorBy::SoftStiff => "Two colors: soft, and stiff from a rigidity on that you choose",
+            ColorBy::Energy => {
+                "Where the surface is strained most: the share of each vertex in the energy (E_k of eq. 1)"
+            }
+            ColorBy::EnergyDifference => {
+                "Where strain changes abruptly: the largest difference of energy to a neighboring vertex"
+            }
+            ColorBy::Stretch => {
+                "Which edges got longer or shorter than at rest: of each vertex the edge that changed most"
+            }
+        }
+    }
+
+    /// What the solver's thread has to measure for it.
+    pub(super) fn measure(self) -> Option<Measure> {
+        match self {
+            ColorBy::Plain | ColorBy::Rigidity | ColorBy::SoftStiff => None,
+            ColorBy::Energy => Some(Measure::Energy),
+            ColorBy::EnergyDifference => Some(Measure::EnergyDifference),
+            ColorBy::Stretch => Some(Measure::Stretch),
+        }
+    }
 }
 
 /// Settings of the picture.
@@ -27,6 +86,8 @@ pub struct Look {
     pub color_by: ColorBy,
     /// How much of the color shows, 0 to 1.
     pub opacity: f32,
+    /// The smallest r that counts as stiff where two colors tell soft from stiff.
+    pub stiff_from: u16,
     /// Smooth or flat.
     pub shading: Shading,
     /// Edges drawn over the surface.
@@ -44,6 +105,8 @@ impl Default for Look {
         Look {
             color_by: ColorBy::Rigidity,
             opacity: 0.85,
+            // Half of the paper's 1 to 6.
+            stiff_from: 3,
             shading: Shading::Smooth,
             wireframe: false,
             grid: true,

@@ -1,6 +1,8 @@
 //! The editor without its window: what is open, which tool is in hand, what the solver said. Everything the window
 //! does goes through here, and so can a test.
 
+mod views;
+
 use std::path::Path;
 use std::sync::Arc;
 
@@ -10,12 +12,11 @@ use pliant_solver::{Rigidity, VertexId};
 
 use super::jobs::{Jobs, Opened};
 use super::{
-    ColorBy, Job, JobEvent, Learning, Look, NoticeKind, Notices, Open, Sample, Shortcuts, Shown, Status, Trial, Welcome,
+    Job, JobEvent, Learning, Look, NoticeKind, Notices, Open, Sample, Shortcuts, Shown, Status, Trial, Welcome,
 };
 use crate::document::{Command, Document, GroupKind, Model, SelectMode, Snapshot};
-use crate::solving::{SolveReport, SolveRequest, Worker};
+use crate::solving::{Measure, SolveReport, SolveRequest, Worker};
 use crate::tools::{Context, Input, Marks, Options, Tool, ToolKind, View};
-use crate::viewport::Coloring;
 
 /// Everything behind the window.
 pub struct Session {
@@ -40,7 +41,7 @@ pub struct Session {
     viewport_size: Vec2,
     worker: Worker,
     jobs: Jobs,
-    sent: Option<(u64, bool)>,
+    sent: Option<(u64, Option<Measure>)>,
     welcome: Option<Welcome>,
     /// Revision of the document when a job was started that will replace it.
     revision_at_open: u64,
@@ -255,11 +256,10 @@ impl Session {
     fn synchronize(&mut self) {
         let Some(open) = &mut self.open else { return };
         open.catch_up();
-        let energies = self.look.color_by == ColorBy::Energy;
-        let wish = (open.document.revision(), energies);
+        let wish = (open.document.revision(), self.look.color_by.measure());
         if self.sent != Some(wish) {
             self.sent = Some(wish);
-            self.worker.request(SolveRequest::of(&open.document, energies));
+            self.worker.request(SolveRequest::of(&open.document, wish.1));
         }
     }
 
@@ -377,23 +377,6 @@ impl Session {
     pub fn shown_rigidity(&self) -> Option<&Rigidity> {
         let trial = self.learning.as_ref().and_then(Learning::trial).filter(|trial| trial.shown != Shown::Now);
         trial.map(Trial::rigidity).or_else(|| self.document().map(|document| &document.scene().rigidity))
-    }
-
-    /// What colors the surface now, and the numbers for it where it is not r.
-    pub(super) fn coloring(&self) -> (Coloring, Option<Arc<[f32]>>) {
-        if let Some(trial) = self.learning.as_ref().and_then(Learning::trial) {
-            match trial.shown {
-                Shown::Learned => return (Coloring::Rigidity, None),
-                Shown::Confidence => return (Coloring::Energy, Some(trial.confidence().clone())),
-                Shown::Now => {}
-            }
-        }
-        let energies = self.status.report.as_ref().and_then(|report| report.vertex_energies.clone());
-        match self.look.color_by {
-            ColorBy::Rigidity => (Coloring::Rigidity, None),
-            ColorBy::Energy if energies.is_some() => (Coloring::Energy, energies),
-            ColorBy::Plain | ColorBy::Energy => (Coloring::Plain, None),
-        }
     }
 
     /// Opens the panel in which rigidity is learned from poses.

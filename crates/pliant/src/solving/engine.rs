@@ -14,7 +14,7 @@ use rayon::prelude::*;
 
 use super::preview::{LIMITS, Limits, Previews};
 use super::stillness::Stillness;
-use super::{SolveReport, SolveRequest, SolveState};
+use super::{Measure, Measured, SolveReport, SolveRequest, SolveState};
 use crate::document::{Pose, held_by};
 use crate::viewport::SurfaceFrame;
 
@@ -52,7 +52,7 @@ pub struct Engine {
     stillness: Stillness,
     previews: Previews,
     /// As last reported.
-    vertex_energies: Option<Arc<[f32]>>,
+    measured: Option<Measured>,
     last: StepReport,
     energies: VecDeque<f64>,
     times_ms: VecDeque<f64>,
@@ -70,7 +70,7 @@ impl Engine {
         let analysis = Arc::new(Analysis::new(model.mesh.clone(), wish.weights));
         Engine {
             previews: Previews::new(&analysis, limits),
-            vertex_energies: None,
+            measured: None,
             analysis,
             normals: VertexNormals::new(model.mesh.n_vertices(), &model.triangles),
             solver: None,
@@ -334,8 +334,7 @@ impl Engine {
         let frame = pose.as_ref().map(|pose| Arc::new(self.frame(pose)));
         // Those of a preview would be of no use, and take longer than the preview.
         if !self.is_previewing() {
-            let solver = self.solver.as_ref().filter(|_| self.wish.wants_vertex_energies);
-            self.vertex_energies = solver.map(|solver| scaled(&solver.vertex_energies()));
+            self.measured = self.measure();
         }
         SolveReport {
             model: self.wish.model.clone(),
@@ -349,8 +348,18 @@ impl Engine {
             relative_decrease: self.last.relative_decrease,
             iteration_ms: median(&self.times_ms),
             energies: self.energies.iter().copied().collect(),
-            vertex_energies: self.vertex_energies.clone(),
+            measured: self.measured.clone(),
             remarks: self.remarks(),
+        }
+    }
+
+    /// What the wish asks for of every vertex. Without handles nothing has an energy.
+    fn measure(&self) -> Option<Measured> {
+        let (measure, model) = (self.wish.measure?, &self.wish.model);
+        match (measure, &self.solver) {
+            (Measure::Stretch, Some(solver)) => Some(Measured::stretch(model, &solver.positions())),
+            (Measure::Stretch, None) => Some(Measured::stretch(model, &self.wish.pose.positions)),
+            (_, solver) => Some(Measured::energies(model, measure, solver.as_ref()?.vertex_energies())),
         }
     }
 
@@ -439,12 +448,4 @@ fn median(values: &VecDeque<f64>) -> f64 {
     let mut sorted: Vec<f64> = values.iter().copied().collect();
     sorted.sort_by(f64::total_cmp);
     sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
-}
-
-/// Divides by the 99th percentile, so that one bad vertex does not turn all others blue.
-fn scaled(values: &[f64]) -> Arc<[f32]> {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let top = sorted.get(sorted.len().saturating_mul(99) / 100).copied().unwrap_or(0.0).max(f64::MIN_POSITIVE);
-    values.iter().map(|&value| (value / top).clamp(0.0, 1.0) as f32).collect()
 }

@@ -6,6 +6,7 @@
 
 mod engine;
 mod mailbox;
+mod measures;
 mod pace;
 mod preview;
 mod request;
@@ -13,5 +14,6 @@ mod stillness;
 mod worker;
 
 pub use engine::{Engine, Watch};
+pub use measures::{Measure, Measured};
 pub use request::{SolveReport, SolveRequest, SolveState};
 pub use worker::Worker;

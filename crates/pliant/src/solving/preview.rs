@@ -155,7 +155,7 @@ mod tests {
     }
 
     fn adopt(engine: &mut Engine, document: &Document) {
-        let turned = engine.adopt(SolveRequest::of(document, false), &mut |_| ControlFlow::Continue(()));
+        let turned = engine.adopt(SolveRequest::of(document, None), &mut |_| ControlFlow::Continue(()));
         assert!(turned.is_continue());
     }
 
@@ -163,7 +163,7 @@ mod tests {
     fn engine(document: &mut Document, with_previews: bool) -> Engine {
         let vertices = if with_previews { 0 } else { usize::MAX };
         let limits = Limits { vertices, iteration_ms: 0.0 };
-        let mut engine = Engine::with_previews(&SolveRequest::of(document, false), limits);
+        let mut engine = Engine::with_previews(&SolveRequest::of(document, None), limits);
         engine.wait_for_previews();
         lift(document, 0.5);
         adopt(&mut engine, document);

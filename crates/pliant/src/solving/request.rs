@@ -7,6 +7,8 @@ use pliant_solver::{LooseComponents, Rigidity, Weights};
 use crate::document::{Document, Group, Model, Pose};
 use crate::viewport::SurfaceFrame;
 
+use super::{Measure, Measured};
+
 /// The whole wish: not what changed, but what should hold.
 #[derive(Clone)]
 pub struct SolveRequest {
@@ -26,13 +28,13 @@ pub struct SolveRequest {
     pub weights: Weights,
     /// What parts without handles do.
     pub loose: LooseComponents,
-    /// Whether reports should carry the energy of every vertex.
-    pub wants_vertex_energies: bool,
+    /// What reports should tell of every vertex.
+    pub measure: Option<Measure>,
 }
 
 impl SolveRequest {
     /// All that a document wants now.
-    pub fn of(document: &Document, wants_vertex_energies: bool) -> SolveRequest {
+    pub fn of(document: &Document, measure: Option<Measure>) -> SolveRequest {
         let scene = document.scene();
         SolveRequest {
             revision: document.revision(),
@@ -43,7 +45,7 @@ impl SolveRequest {
             groups: scene.groups.clone(),
             weights: scene.weights,
             loose: scene.loose,
-            wants_vertex_energies,
+            measure,
         }
     }
 }
@@ -91,8 +93,8 @@ pub struct SolveReport {
     pub iteration_ms: f64,
     /// Energies of the last iterations, oldest first.
     pub energies: Arc<[f64]>,
-    /// Energy of every vertex relative to its 99th percentile, at most 1, when asked for.
-    pub vertex_energies: Option<Arc<[f32]>>,
+    /// What was asked for of every vertex, where there is something to tell.
+    pub measured: Option<Measured>,
     /// What the user should know: parts without a handle, for instance.
     pub remarks: Vec<String>,
 }

@@ -173,7 +173,7 @@ fn bare_report(wish: &SolveRequest, state: SolveState) -> SolveReport {
         relative_decrease: 0.0,
         iteration_ms: 0.0,
         energies: Arc::new([]),
-        vertex_energies: None,
+        measured: None,
         remarks: Vec::new(),
     }
 }
@@ -211,7 +211,7 @@ mod tests {
     }
 
     fn wish(document: &Document) -> SolveRequest {
-        SolveRequest::of(document, false)
+        SolveRequest::of(document, None)
     }
 
     /// Turns to a wish as the worker does. Returns whether a newer one made it needless, and the states that were told.

@@ -26,7 +26,7 @@ mod test_scenes;
 pub use camera::{Axis, Camera, Projection};
 pub use headless::{DeviceWatch, GpuError, Headless, watch_device};
 pub use picture::{picture, picture_on};
-pub use ramp::{energy_color, rigidity_color};
+pub use ramp::{energy_color, rigidity_color, soft_stiff_color, stretch_color};
 pub use renderer::{Renderer, samples_for};
 pub use scene::{Coloring, Dot, Line, Preview, Shading, SurfaceFrame, Theme, ViewScene};
 pub use shaders::SHADERS;

@@ -29,8 +29,15 @@ pub enum Coloring {
     Plain,
     /// r of each vertex through the rigidity ramp.
     Rigidity,
+    /// Two colors: soft, and stiff from this r on.
+    SoftStiff {
+        /// The smallest r that counts as stiff.
+        stiff_from: u16,
+    },
     /// One value a vertex in 0..=1 through the heat ramp.
     Energy,
+    /// One value a vertex in 0..=1 through the ramp of two directions, 0.5 unchanged.
+    Stretch,
 }
 
 /// Dark or light surroundings.
@@ -84,9 +91,9 @@ pub struct ViewScene {
     pub triangles: Arc<[[u32; 3]]>,
     /// Positions and normals.
     pub frame: Arc<SurfaceFrame>,
-    /// r of each vertex, for [`Coloring::Rigidity`].
+    /// r of each vertex, for [`Coloring::Rigidity`] and [`Coloring::SoftStiff`].
     pub rigidity: Arc<[u16]>,
-    /// One value a vertex in 0..=1, for [`Coloring::Energy`].
+    /// One value a vertex in 0..=1, for [`Coloring::Energy`] and [`Coloring::Stretch`].
     pub values: Option<Arc<[f32]>>,
     /// One flag a vertex: tinted as selected.
     pub selected: Option<Arc<[bool]>>,

@@ -9,17 +9,29 @@ use crate::viewport::{Axis, Projection, Shading, Theme};
 
 actions! {
     /// The file's own colors.
-    COLOR_PLAIN = Entry::new("view.color-plain", "Plain colors", "Show the mesh in its own colors")
+    COLOR_PLAIN = color("view.color-plain", ColorBy::Plain)
         .on(|session| session.look.color_by == ColorBy::Plain)
         .look(|look| look.color_by = ColorBy::Plain);
     /// Colors by r.
-    COLOR_RIGIDITY = Entry::new("view.color-rigidity", "Color by rigidity", "Show where the mesh is soft and stiff")
+    COLOR_RIGIDITY = color("view.color-rigidity", ColorBy::Rigidity)
         .on(|session| session.look.color_by == ColorBy::Rigidity)
         .look(|look| look.color_by = ColorBy::Rigidity);
+    /// Soft and stiff in two colors.
+    COLOR_SOFT_STIFF = color("view.color-soft-stiff", ColorBy::SoftStiff)
+        .on(|session| session.look.color_by == ColorBy::SoftStiff)
+        .look(|look| look.color_by = ColorBy::SoftStiff);
     /// Colors by energy.
-    COLOR_ENERGY = Entry::new("view.color-energy", "Color by energy", "Show where the surface is strained most")
+    COLOR_ENERGY = color("view.color-energy", ColorBy::Energy)
         .on(|session| session.look.color_by == ColorBy::Energy)
         .look(|look| look.color_by = ColorBy::Energy);
+    /// Colors by the difference of energy to neighbors.
+    COLOR_ENERGY_DIFFERENCE = color("view.color-energy-difference", ColorBy::EnergyDifference)
+        .on(|session| session.look.color_by == ColorBy::EnergyDifference)
+        .look(|look| look.color_by = ColorBy::EnergyDifference);
+    /// Colors by the stretch of edges.
+    COLOR_STRETCH = color("view.color-stretch", ColorBy::Stretch)
+        .on(|session| session.look.color_by == ColorBy::Stretch)
+        .look(|look| look.color_by = ColorBy::Stretch);
     /// Edges over the surface.
     TOGGLE_WIREFRAME = Entry::new("view.wireframe", "Wireframe", "Show the edges of the mesh")
         .key(NONE, Key::W)
@@ -75,6 +87,10 @@ actions! {
         .apart()
         .on(|session| session.look.theme == Theme::Light)
         .look(|look| look.theme = if look.theme == Theme::Dark { Theme::Light } else { Theme::Dark });
+}
+
+const fn color(id: &'static str, color_by: ColorBy) -> Entry {
+    Entry::new(id, color_by.label(), color_by.tooltip()).within("Color by")
 }
 
 const fn from(id: &'static str, label: &'static str) -> Entry {

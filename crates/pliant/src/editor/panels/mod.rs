@@ -12,6 +12,7 @@ mod paint;
 mod rail;
 mod sections;
 mod status;
+mod view;
 mod welcome;
 mod weld;
 

@@ -6,9 +6,8 @@ use pliant_solver::{LooseComponents, Weights};
 
 use super::action_button;
 use crate::document::{Command, Group, GroupKind};
-use crate::editor::{Action, ColorBy, Session, theme};
+use crate::editor::{Action, Session, theme};
 use crate::tools::{Options, SelectShape};
-use crate::viewport::{Shading, Theme};
 
 /// Patch size of handles and anchors.
 pub(super) fn patch(ui: &mut Ui, session: &mut Session) {
@@ -164,40 +163,4 @@ fn plot(ui: &mut Ui, session: &Session) {
         .show(ui, |plot| plot.line(Line::new("energy", points).color(theme::ACCENT).width(1.6)))
         .response
         .on_hover_text("Energy of the last iterations, logarithmic");
-}
-
-/// Settings of the picture.
-pub(super) fn view(ui: &mut Ui, session: &mut Session) {
-    let mut look = session.look.clone();
-    ui.horizontal(|ui| {
-        ui.label("Color");
-        ui.selectable_value(&mut look.color_by, ColorBy::Plain, "plain");
-        ui.selectable_value(&mut look.color_by, ColorBy::Rigidity, "rigidity");
-        ui.selectable_value(&mut look.color_by, ColorBy::Energy, "energy")
-            .on_hover_text("Where the surface is strained most (the share of each vertex in the energy)");
-    });
-    ui.add_enabled_ui(look.color_by != ColorBy::Plain, |ui| {
-        ui.horizontal(|ui| {
-            ui.add(Slider::new(&mut look.opacity, 0.0..=1.0).fixed_decimals(2));
-            ui.label("color strength");
-        });
-    });
-    ui.horizontal(|ui| {
-        ui.label("Shading");
-        ui.selectable_value(&mut look.shading, Shading::Smooth, "smooth");
-        ui.selectable_value(&mut look.shading, Shading::Flat, "flat");
-    });
-    ui.horizontal_wrapped(|ui| {
-        ui.checkbox(&mut look.wireframe, "wireframe");
-        ui.checkbox(&mut look.grid, "grid");
-        ui.checkbox(&mut look.handles, "handles");
-    });
-    ui.horizontal(|ui| {
-        ui.label("Theme");
-        ui.selectable_value(&mut look.theme, Theme::Dark, "dark");
-        ui.selectable_value(&mut look.theme, Theme::Light, "light");
-    });
-    if look != session.look {
-        session.set_look(look);
-    }
 }

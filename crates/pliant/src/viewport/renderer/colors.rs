@@ -3,7 +3,7 @@
 //! Colors are handed over as square roots of linear light in eight bits: about as fine as sRGB, and decoding is a product.
 
 use super::super::ramp::linear;
-use super::super::{Coloring, Theme, ViewScene, energy_color, rigidity_color};
+use super::super::{Coloring, Theme, ViewScene, energy_color, rigidity_color, soft_stiff_color, stretch_color};
 use glam::Vec3;
 
 /// Unpainted clay, sRGB: light before dark ground, a shade darker before light ground (by eye).
@@ -86,7 +86,9 @@ fn ramp_table(scene: &ViewScene) -> Vec<Vec3> {
             let r = |entry: usize| 1 + (entry * usize::from(max - 1) / last) as u16;
             (0..=last).map(|entry| linear(rigidity_color(r(entry), max))).collect()
         }
+        Coloring::SoftStiff { .. } => [false, true].map(|is_stiff| linear(soft_stiff_color(is_stiff))).into(),
         Coloring::Energy => (0..=last).map(|entry| linear(energy_color(entry as f32 / last as f32))).collect(),
+        Coloring::Stretch => (0..=last).map(|entry| linear(stretch_color(entry as f32 / last as f32))).collect(),
     }
 }
 
@@ -95,8 +97,12 @@ fn ramp_entry(scene: &ViewScene, vertex: usize) -> usize {
     match scene.coloring {
         Coloring::Plain => 0,
         Coloring::Rigidity => rigidity_entry(scene.rigidity.get(vertex).copied().unwrap_or(1), scene.ramp_max),
-        Coloring::Energy => {
-            let value = scene.values.as_ref().and_then(|values| values.get(vertex)).copied().unwrap_or(0.0);
+        Coloring::SoftStiff { stiff_from } => {
+            usize::from(scene.rigidity.get(vertex).copied().unwrap_or(1).max(1) >= stiff_from)
+        }
+        Coloring::Energy | Coloring::Stretch => {
+            let missing = if scene.coloring == Coloring::Stretch { 0.5 } else { 0.0 };
+            let value = scene.values.as_ref().and_then(|values| values.get(vertex)).copied().unwrap_or(missing);
             // A NaN becomes entry 0 here.
             (value.clamp(0.0, 1.0) * (RAMP_ENTRIES - 1) as f32).round() as usize
         }
@@ -202,5 +208,22 @@ mod tests {
         let got = colors(&scene, 3);
         assert_eq!(got[0][..3], got[2][..3], "NaN and missing are zero");
         assert_eq!(got[1], roots(linear(energy_color(1.0))));
+        scene.coloring = Coloring::Stretch;
+        scene.values = Some(Arc::new([0.5, 2.0]));
+        let got = colors(&scene, 3);
+        assert_eq!(got[0], got[2], "missing is unchanged");
+        assert_eq!(got[1], roots(linear(stretch_color(1.0))));
+    }
+
+    #[test]
+    fn two_colors_part_at_the_threshold() {
+        for stiff_from in [1, 2, 4, 20] {
+            let rs = [1, 2, 3, 4, 19, 20, 1000, 0];
+            let scene = ViewScene { coloring: Coloring::SoftStiff { stiff_from }, ..painted(&rs, 6, 1.0) };
+            for (r, color) in rs.into_iter().zip(colors(&scene, rs.len())) {
+                let expected = roots(linear(soft_stiff_color(r.max(1) >= stiff_from)));
+                assert_eq!(color, expected, "r {r}, stiff from {stiff_from}");
+            }
+        }
     }
 }
