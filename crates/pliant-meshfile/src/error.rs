@@ -186,6 +186,16 @@ pub enum SaveError {
         /// Bytes needed.
         bytes: u64,
     },
+    /// More text than would be read again.
+    #[error("{}: not saved: its {bytes} bytes of JSON could not be opened again ({limit} at most); save as .glb", path.display())]
+    TooMuchText {
+        /// The target.
+        path: PathBuf,
+        /// Bytes needed.
+        bytes: u64,
+        /// Bytes that are read.
+        limit: u64,
+    },
     /// A document that could not be encoded.
     #[error("{}: not saved: {reason}", path.display())]
     Encode {

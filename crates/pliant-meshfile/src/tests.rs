@@ -3,6 +3,7 @@
 mod bad_files;
 mod compressed;
 mod conversion;
+mod gltf_beyond;
 mod gltf_reading;
 mod gltf_saving;
 mod lossless;

@@ -34,7 +34,7 @@ impl Mesh {
     /// Any [`MeshError`]: an empty list, a coordinate that is not finite, an index out of range, too many elements.
     pub fn new(positions: Vec<DVec3>, triangles: Vec<[u32; 3]>) -> Result<Mesh, MeshError> {
         validate(&positions, &triangles)?;
-        let half_edges = HalfEdges::new(&triangles);
+        let half_edges = HalfEdges::new(positions.len(), &triangles);
         let edges = half_edges.edges();
         let (offsets, neighbors) = adjacency(positions.len(), &edges);
         let (components, n_components) = components(&offsets, &neighbors);

@@ -161,6 +161,11 @@ fn views() -> Vec<Case> {
     for (key, value, expected) in changes {
         cases.extend(changed(&format!("/bufferViews/0/{key}"), value, expected));
     }
+    // Normals out of nowhere stay there, whatever is saved behind the buffer.
+    for (key, value) in [("byteLength", json!(10_000)), ("byteOffset", json!(10_000)), ("byteOffset", json!(u64::MAX))]
+    {
+        cases.extend(changed(&format!("/bufferViews/1/{key}"), value, N_VERTICES));
+    }
     cases
 }
 

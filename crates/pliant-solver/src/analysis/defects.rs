@@ -7,7 +7,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::analysis::topology::{HalfEdges, Side};
+use crate::analysis::topology::{HalfEdges, Side, sorted};
 use crate::analysis::weights::unit_sides;
 use crate::{Mesh, VertexId};
 
@@ -61,7 +61,7 @@ impl Defects {
         let n = positions.len();
         let of_faces = || {
             let is_flat = |&&face: &&[u32; 3]| is_flat(positions, face);
-            (triangles.par_iter().filter(is_flat).count(), duplicates(triangles).len())
+            (triangles.par_iter().filter(is_flat).count(), duplicates(n, triangles).len())
         };
         let (fans, (edges, faces)) =
             rayon::join(|| n_fans(n, triangles, half_edges), || rayon::join(|| of_edges(n, half_edges), of_faces));
@@ -93,19 +93,19 @@ impl Mesh {
     pub fn vertices_with(&self, defect: Defect) -> Vec<VertexId> {
         let (n, triangles) = (self.n_vertices(), self.triangles());
         let mut vertices: Vec<u32> = match defect {
-            Defect::Boundary | Defect::NonManifoldEdge | Defect::Inconsistent => HalfEdges::new(triangles)
+            Defect::Boundary | Defect::NonManifoldEdge | Defect::Inconsistent => HalfEdges::new(n, triangles)
                 .whole()
                 .filter(|&group| of_edge(group) == Some(defect))
                 .flat_map(|group| [group[0].lower, group[0].upper])
                 .collect(),
             Defect::NonManifoldVertex => {
-                let n_fans = n_fans(n, triangles, &HalfEdges::new(triangles));
+                let n_fans = n_fans(n, triangles, &HalfEdges::new(n, triangles));
                 (0..).zip(n_fans).filter(|&(_, fans)| fans > 1).map(|(v, _)| v).collect()
             }
             Defect::Degenerate => {
                 triangles.iter().filter(|&&face| is_flat(self.positions(), face)).flatten().copied().collect()
             }
-            Defect::Duplicate => duplicates(triangles).into_iter().flatten().collect(),
+            Defect::Duplicate => duplicates(n, triangles).into_iter().flatten().collect(),
             Defect::Unreferenced => unreferenced(n, triangles).collect(),
         };
         vertices.sort_unstable();
@@ -169,15 +169,14 @@ fn n_fans(n: usize, triangles: &[[u32; 3]], half_edges: &HalfEdges) -> Vec<u32> 
     n_fans
 }
 
-/// Faces whose three vertices occur in an earlier face, their vertices ascending.
-fn duplicates(triangles: &[[u32; 3]]) -> Vec<[u32; 3]> {
+/// Faces whose three vertices, all below `n`, occur in an earlier face; their vertices ascending.
+fn duplicates(n: usize, triangles: &[[u32; 3]]) -> Vec<[u32; 3]> {
     let ascending = |&face: &[u32; 3]| {
         let mut face = face;
         face.sort_unstable();
         face
     };
-    let mut sorted: Vec<[u32; 3]> = triangles.iter().map(ascending).collect();
-    sorted.par_sort_unstable();
+    let sorted = sorted(n, triangles.iter().map(ascending), |face| face[0]);
     sorted.windows(2).filter(|pair| pair[0] == pair[1]).map(|pair| pair[0]).collect()
 }
 

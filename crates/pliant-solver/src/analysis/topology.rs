@@ -1,4 +1,7 @@
 //! Edges and components of a triangle list, by sorting half-edges: no hash, so the same every time.
+//!
+//! What is sorted here begins with a vertex, and few items begin with the same one. So they are put behind each other by
+//! their first vertex without comparing them, and only the few of each vertex are sorted.
 
 use rayon::prelude::*;
 
@@ -31,7 +34,8 @@ pub(crate) struct HalfEdges {
 }
 
 impl HalfEdges {
-    pub(crate) fn new(triangles: &[[u32; 3]]) -> HalfEdges {
+    /// Of triangles over vertices below `n`.
+    pub(crate) fn new(n: usize, triangles: &[[u32; 3]]) -> HalfEdges {
         let sides_of = |(begin, &[a, b, c]): (u32, &[u32; 3])| {
             let is_whole = a != b && b != c && c != a;
             let side = move |(k, a, b): (u32, u32, u32)| {
@@ -40,11 +44,8 @@ impl HalfEdges {
             };
             [(0, a, b), (1, b, c), (2, c, a)].map(side)
         };
-        let mut sides: Vec<Side> =
-            (0..).step_by(3).zip(triangles).flat_map(sides_of).filter(|side| side.lower != side.upper).collect();
-        // No two sides are equal: the order is the same for any number of threads.
-        sides.par_sort_unstable();
-        HalfEdges { sides }
+        let sides = (0..).step_by(3).zip(triangles).flat_map(sides_of).filter(|side| side.lower != side.upper);
+        HalfEdges { sides: sorted(n, sides, |side| side.lower) }
     }
 
     /// Each undirected edge once.
@@ -63,6 +64,39 @@ impl HalfEdges {
             .map(|group| &group[group.partition_point(|side| !side.is_whole)..])
             .filter(|group| !group.is_empty())
     }
+}
+
+/// Items of one vertex from which on more than one thread sorts them: a fan of so many triangles.
+const MANY: usize = 1 << 14;
+
+/// Items in ascending order, which begins with the order of a vertex below `n` that each of them names. Sorting sides of
+/// faces so was measured to take a third of the time of comparing them all.
+///
+/// Items that are equal are not told apart: the result is the same for any number of threads.
+pub(crate) fn sorted<T: Copy + Ord + Send>(
+    n: usize,
+    items: impl Iterator<Item = T> + Clone,
+    vertex: impl Fn(&T) -> u32 + Sync,
+) -> Vec<T> {
+    let mut ends = vec![0u32; n];
+    items.clone().for_each(|item| ends[vertex(&item) as usize] += 1);
+    let mut n_items = 0;
+    for end in &mut ends {
+        n_items += *end;
+        *end = n_items;
+    }
+    let Some(any) = items.clone().next() else { return Vec::new() };
+    let mut sorted = vec![any; n_items as usize];
+    for item in items {
+        let end = &mut ends[vertex(&item) as usize];
+        *end -= 1;
+        sorted[*end as usize] = item;
+    }
+    sorted.par_chunk_by_mut(|a, b| vertex(a) == vertex(b)).for_each(|of_one| match of_one.len() {
+        0..MANY => of_one.sort_unstable(),
+        _ => of_one.par_sort_unstable(),
+    });
+    sorted
 }
 
 /// In place of an edge: the two corners at this side of a face are one vertex.
@@ -105,4 +139,25 @@ pub(crate) fn components(offsets: &[u32], neighbors: &[u32]) -> (Vec<u32>, usize
         n_components += 1;
     }
     (component, n_components as usize)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn items_are_sorted_as_by_comparing_them_all() {
+        // A fan large enough for several threads, and scattered pairs.
+        let mut state = 7u32;
+        let mut number = |below: u32| {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state >> 8) % below
+        };
+        let mut items: Vec<[u32; 2]> =
+            (0..40_000).map(|i| [if i % 2 == 0 { 3 } else { number(100) }, number(50)]).collect();
+        let got = sorted(100, items.iter().copied(), |item| item[0]);
+        items.sort_unstable();
+        assert!(got == items);
+        assert!(sorted(5, std::iter::empty::<[u32; 2]>(), |item| item[0]).is_empty());
+    }
 }

@@ -68,6 +68,11 @@ impl Component {
 }
 
 impl Component {
+    /// The number at the start of `b`, as it is stored.
+    pub(super) fn stored(self, b: &[u8]) -> f64 {
+        self.read(b).0
+    }
+
     /// Appends a number as it is stored, the nearest that can be.
     pub(super) fn write(self, number: f64, out: &mut Vec<u8>) {
         match self {

@@ -1,5 +1,6 @@
 //! The bytes that accessors point into.
 
+use super::source::GltfSource;
 use super::{base64, compressed, container::Container, json};
 use crate::{Fault, budget, files};
 use serde_json::Value;
@@ -81,4 +82,29 @@ fn load_one(
     files::read_beside(folder, &reference, limit)
         .map(Buffer::File)
         .map_err(|reason| format!("its file {shown} cannot be read: {reason}"))
+}
+
+/// Whether a view reaches beyond the bytes that each buffer states. A file opens with such views where nothing needs them;
+/// whatever is put behind those bytes would be read as part of them.
+pub(super) fn reached_beyond(source: &GltfSource) -> Vec<bool> {
+    let GltfSource { document, buffers, container, .. } = source;
+    let number = |object: &Value, key: &str| object.get(key).and_then(Value::as_f64);
+    let declared = json::list(document, "buffers").unwrap_or_default();
+    let ends = buffers.iter().zip(declared).map(|(buffer, declared)| match buffer {
+        // It has no bytes that anything could be put behind.
+        Buffer::Absent => f64::INFINITY,
+        _ => number(declared, "byteLength").unwrap_or(buffer.bytes(container).len() as f64),
+    });
+    let ends: Vec<f64> = ends.collect();
+    let mut beyond = vec![false; ends.len()];
+    for view in json::list(document, "bufferViews").unwrap_or_default() {
+        for part in std::iter::once(view).chain(compressed::meshopt_of(view)) {
+            let Some(buffer) = number(part, "buffer").map(|buffer| buffer as usize) else { continue };
+            let end = number(part, "byteOffset").unwrap_or(0.0) + number(part, "byteLength").unwrap_or(0.0);
+            if ends.get(buffer).is_some_and(|&last| end > last) {
+                beyond[buffer] = true;
+            }
+        }
+    }
+    beyond
 }

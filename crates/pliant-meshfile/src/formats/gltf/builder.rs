@@ -22,11 +22,10 @@ pub(super) struct Builder {
 }
 
 impl Builder {
-    /// For what is to be appended to a document.
-    pub(super) fn after(document: &Value, glb: bool, chunk: Option<&[u8]>) -> Builder {
+    /// For what is to be appended to a document: to the binary chunk that is given, or else to a new buffer inside it.
+    pub(super) fn after(document: &Value, chunk: Option<&[u8]>) -> Builder {
         let n = |key: &str| document.get(key).and_then(Value::as_array).map_or(0, Vec::len);
-        // A GLB file has one buffer of its own; in glTF new data is a new buffer inside the document.
-        let (buffer, start) = if glb { (0, chunk.map_or(0, <[u8]>::len)) } else { (n("buffers"), 0) };
+        let (buffer, start) = chunk.map_or((n("buffers"), 0), |chunk| (0, chunk.len()));
         let start = start.next_multiple_of(4);
         Builder { n_accessors: n("accessors"), n_views: n("bufferViews"), buffer, start, ..Builder::default() }
     }
@@ -68,6 +67,20 @@ impl Builder {
         self.push(&bytes, ATTRIBUTES, Some(4), json!({"componentType": 5123, "count": r.len(), "type": "SCALAR"}))
     }
 
+    /// Vertex attributes as they are stored, in elements of so many bytes, for an accessor that says the rest.
+    pub(super) fn stored(&mut self, bytes: &[u8], size: usize, accessor: Value) -> usize {
+        let stride = size.next_multiple_of(4);
+        if stride == size {
+            return self.push(bytes, ATTRIBUTES, None, accessor);
+        }
+        let mut spaced = Vec::with_capacity(bytes.len() / size * stride);
+        for element in bytes.chunks_exact(size) {
+            spaced.extend_from_slice(element);
+            spaced.resize(spaced.len().next_multiple_of(4), 0);
+        }
+        self.push(&spaced, ATTRIBUTES, Some(stride as u32), accessor)
+    }
+
     /// Indices in the shortest type that spares the largest number, which means 'restart'.
     pub(super) fn indices(&mut self, indices: &[u32]) -> usize {
         let short = indices.iter().all(|&index| index < u32::from(u16::MAX));
@@ -79,8 +92,8 @@ impl Builder {
         self.push(&bytes, INDICES, None, json!({"componentType": kind, "count": indices.len(), "type": "SCALAR"}))
     }
 
-    /// Appends everything to the document, and to the binary chunk where there is one.
-    pub(super) fn attach(self, document: &mut Value, chunk: &mut Option<Vec<u8>>) {
+    /// Appends everything to the document, and to the binary chunk it was begun after.
+    pub(super) fn attach(self, document: &mut Value, chunk: Option<&mut Vec<u8>>) {
         if self.data.is_empty() {
             return;
         }

@@ -1,6 +1,7 @@
 //! The two outsides of a glTF document: plain JSON, or GLB chunks.
 
-use crate::{Fault, budget};
+use crate::{Fault, SaveError, budget};
+use std::path::Path;
 
 const MAGIC: &[u8] = b"glTF";
 const JSON_CHUNK: u32 = 0x4E4F_534A;
@@ -62,13 +63,29 @@ pub(super) fn parse(bytes: Vec<u8>) -> Result<Container, Fault> {
     Ok(container)
 }
 
-/// Puts a GLB file together; the error is the size it would have had beyond the format's 4 GiB.
-pub(super) fn glb(json: &[u8], binary: Option<&[u8]>, others: &[(u32, Vec<u8>)]) -> Result<Vec<u8>, u64> {
-    let mut chunks = vec![(JSON_CHUNK, json, b' ')];
+/// Text as a file, or refused where it would be too long to be opened again.
+pub(super) fn text(json: Vec<u8>, to: &Path) -> Result<Vec<u8>, SaveError> {
+    let (bytes, limit) = (json.len() as u64, budget::JSON_BYTES);
+    if bytes > limit {
+        return Err(SaveError::TooMuchText { path: to.to_owned(), bytes, limit });
+    }
+    Ok(json)
+}
+
+/// Puts a GLB file together, or refuses what is beyond the format's 4 GiB or too long to be opened again.
+pub(super) fn glb(
+    json: Vec<u8>,
+    binary: Option<&[u8]>,
+    others: &[(u32, Vec<u8>)],
+    to: &Path,
+) -> Result<Vec<u8>, SaveError> {
+    let json = text(json, to)?;
+    let mut chunks = vec![(JSON_CHUNK, json.as_slice(), b' ')];
     chunks.extend(binary.map(|binary| (BINARY_CHUNK, binary, 0)));
     chunks.extend(others.iter().map(|(kind, bytes)| (*kind, bytes.as_slice(), 0)));
     let length = chunks.iter().fold(12u64, |sum, chunk| sum + 8 + chunk.1.len().next_multiple_of(4) as u64);
-    let header_length = u32::try_from(length).map_err(|_| length)?;
+    let too_large = |_| SaveError::TooLarge { path: to.to_owned(), bytes: length };
+    let header_length = u32::try_from(length).map_err(too_large)?;
     let mut bytes = Vec::with_capacity(length as usize);
     bytes.extend_from_slice(MAGIC);
     bytes.extend_from_slice(&2u32.to_le_bytes());
@@ -81,4 +98,21 @@ pub(super) fn glb(json: &[u8], binary: Option<&[u8]>, others: &[(u32, Vec<u8>)])
         bytes.resize(bytes.len() + padded - content.len(), padding);
     }
     Ok(bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn text_that_would_not_be_opened_again_is_not_saved() {
+        let most = vec![b' '; budget::JSON_BYTES as usize];
+        let to = Path::new("large.gltf");
+        let more = [most.as_slice(), b" "].concat();
+        assert!(text(most, to).is_ok());
+        for refused in [text(more.clone(), to), glb(more, None, &[], to)] {
+            let error = refused.expect_err("too long").to_string();
+            assert!(error.starts_with("large.gltf: not saved: its 268435457 bytes of JSON"), "{error}");
+        }
+    }
 }

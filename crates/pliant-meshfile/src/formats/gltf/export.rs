@@ -54,12 +54,7 @@ pub(crate) fn write(shape: &Shape, to: &Path) -> Result<Output, SaveError> {
     document["buffers"] = json!([buffer]);
     let json = serde_json::to_vec(&document)
         .map_err(|error| SaveError::Encode { path: to.to_owned(), reason: error.to_string() })?;
-    let bytes = if glb {
-        container::glb(&json, Some(&builder.data), &[])
-            .map_err(|bytes| SaveError::TooLarge { path: to.to_owned(), bytes })?
-    } else {
-        json
-    };
+    let bytes = if glb { container::glb(json, Some(&builder.data), &[], to)? } else { container::text(json, to)? };
     Ok(Output { bytes, beside: Vec::new(), warnings: Vec::new(), origin: None })
 }
 

@@ -1,7 +1,7 @@
 //! Buffers and images of a document that is saved in another kind of file, or in another folder.
 
 use super::base64;
-use super::buffers::Buffer;
+use super::buffers::{self, Buffer};
 use super::compressed;
 use super::source::GltfSource;
 use crate::{Warning, budget, files};
@@ -11,8 +11,11 @@ use std::path::Path;
 /// A document whose references hold at its new place.
 pub(super) struct Relocated {
     pub(super) document: Value,
-    /// The binary chunk, for GLB. New data goes to its end.
+    /// The binary chunk, for GLB.
     pub(super) chunk: Option<Vec<u8>>,
+    /// Whether new data can go to the end of the chunk. Where a view reaches there already it goes to a buffer of its
+    /// own, or the view would show it.
+    pub(super) extensible: bool,
     pub(super) warnings: Vec<Warning>,
     /// Whether the document differs from the source's.
     pub(super) changed: bool,
@@ -28,15 +31,19 @@ pub(super) fn relocate(source: &GltfSource, to: &Path, glb: bool) -> Relocated {
     let stays = source.folder.as_ref().is_none_or(|folder| files::same_folder(&folder.join("x"), to));
     let starts_with_chunk = matches!(source.buffers.first(), Some(Buffer::Chunk));
     let mut changed = glb != source.container.is_glb;
-    let mut chunk = None;
+    let beyond = buffers::reached_beyond(source);
+    let (mut chunk, mut n_taken) = (None, 0);
     if glb && (starts_with_chunk || source.buffers.is_empty()) {
         chunk = Some(source.container.binary.clone().unwrap_or_default());
     } else if glb {
-        chunk = Some(merge(source, &mut document));
+        (chunk, n_taken) = match beyond.contains(&true) {
+            true => first_alone(source, &mut document),
+            false => (Some(merge(source, &mut document)), source.buffers.len()),
+        };
         changed = true;
     }
-    let n_merged = if glb && !starts_with_chunk { source.buffers.len() } else { 0 };
-    for (i, buffer) in source.buffers.iter().enumerate().skip(n_merged) {
+    let extensible = chunk.is_some() && beyond.first() != Some(&true);
+    for (i, buffer) in source.buffers.iter().enumerate().skip(n_taken) {
         let embed = match buffer {
             Buffer::Chunk => !glb,
             Buffer::File(_) => !stays,
@@ -53,11 +60,23 @@ pub(super) fn relocate(source: &GltfSource, to: &Path, glb: bool) -> Relocated {
     if !stays {
         changed |= embed_images(source, &mut document, &mut warnings);
     }
-    Relocated { document, chunk, warnings, changed }
+    Relocated { document, chunk, extensible, warnings, changed }
 }
 
 pub(super) fn data_uri(kind: &str, bytes: &[u8]) -> String {
     format!("data:{kind};base64,{}", base64::encode(bytes))
+}
+
+/// The first buffer becomes the chunk, if it holds something, and the others stay as they are: behind one that views
+/// reach beyond, another would be read as part of those views. Also how many buffers were taken.
+fn first_alone(source: &GltfSource, document: &mut Value) -> (Option<Vec<u8>>, usize) {
+    let Some(first) = source.buffers.first().filter(|buffer| !matches!(buffer, Buffer::Absent)) else {
+        return (None, 0);
+    };
+    if let Some(buffer) = document.pointer_mut("/buffers/0").and_then(Value::as_object_mut) {
+        buffer.shift_remove("uri");
+    }
+    (Some(first.bytes(&source.container).to_vec()), 1)
 }
 
 /// Joins all buffers that hold something into one, and moves the views; those that hold nothing come behind it.

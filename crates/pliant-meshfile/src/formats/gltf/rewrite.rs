@@ -21,7 +21,8 @@ use std::path::Path;
 pub(super) fn rewrite(source: &GltfSource, edit: &Edit<'_>, to: &Path, format: Format) -> Result<Output, SaveError> {
     let glb = format == Format::Glb;
     let mut place = relocate(source, to, glb);
-    let mut added = Builder::after(&place.document, glb, place.chunk.as_deref());
+    let extended = place.chunk.as_deref().filter(|_| place.extensible);
+    let mut added = Builder::after(&place.document, extended);
     let mut replaced = Vec::new();
     let turns =
         edit.positions.iter().enumerate().any(|(v, _)| edit.moved(v)).then(|| shape::vertex_turns(source, edit));
@@ -43,18 +44,20 @@ pub(super) fn rewrite(source: &GltfSource, edit: &Edit<'_>, to: &Path, format: F
     if replaced.is_empty() && !place.changed {
         return pack(source, source.container.json.clone(), place.chunk, glb, to, place.warnings);
     }
-    let mut leaving = Leaving::new(source);
-    for (mesh, primitive, attribute, accessor) in replaced {
-        let Some(primitive) = place.document.pointer_mut(&format!("/meshes/{mesh}/primitives/{primitive}")) else {
-            continue;
-        };
-        if let Some(slot) = primitive.get_mut("attributes").and_then(Value::as_object_mut) {
+    for &(mesh, primitive, attribute, accessor) in &replaced {
+        let attributes = format!("/meshes/{mesh}/primitives/{primitive}/attributes");
+        if let Some(slot) = place.document.pointer_mut(&attributes).and_then(Value::as_object_mut) {
             slot.insert(attribute.into(), accessor.into());
         }
-        leaving.strike(primitive, attribute, &mut added);
+    }
+    let mut leaving = Leaving::new(source);
+    for &(mesh, primitive, attribute, _) in &replaced {
+        if let Some(primitive) = place.document.pointer_mut(&format!("/meshes/{mesh}/primitives/{primitive}")) {
+            leaving.changed(primitive, attribute, &mut added);
+        }
     }
     leaving.finish(&mut place.document);
-    added.attach(&mut place.document, &mut place.chunk);
+    added.attach(&mut place.document, place.chunk.as_mut().filter(|_| place.extensible));
     let json = match patch::patched(&source.container.json, &source.document, &place.document) {
         Some(text) => text,
         None => serde_json::to_vec(&place.document)
@@ -74,10 +77,9 @@ fn pack(
     let bytes = if glb {
         let had_chunk = source.container.binary.is_some();
         let chunk = chunk.filter(|chunk| had_chunk || !chunk.is_empty());
-        container::glb(&json, chunk.as_deref(), &source.container.others)
-            .map_err(|bytes| SaveError::TooLarge { path: to.to_owned(), bytes })?
+        container::glb(json, chunk.as_deref(), &source.container.others, to)?
     } else {
-        json
+        container::text(json, to)?
     };
     Ok(Output { bytes, beside: Vec::new(), warnings, origin: None })
 }

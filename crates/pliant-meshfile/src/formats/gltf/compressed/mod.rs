@@ -1,8 +1,9 @@
 //! Geometry that extensions store compressed, decoded on opening.
 //!
 //! Reading asks for views and accessors as ever and finds the decoded bytes in their place. Saving leaves the compressed
-//! ones where they are; what is bent gets accessors of its own, without compression, and the rest still comes out of the
-//! compressed data.
+//! ones where they are; what is bent gets accessors of its own, without compression. The rest still comes out of the
+//! compressed data, but for primitives that Draco compresses, which are saved plain as a whole once they are bent
+//! ([`leave_draco`](super::leave_draco)).
 //!
 //! | extension | compresses | decoded by |
 //! |---|---|---|
@@ -14,6 +15,7 @@ mod meshopt;
 
 pub(super) use draco::EXTENSION as DRACO;
 pub(super) use meshopt::EXTENSIONS as MESHOPT;
+pub(super) use meshopt::extension as meshopt_of;
 
 use super::access::{Component, Data};
 use super::json;

@@ -19,7 +19,7 @@ use serde_json::Value;
 pub(in super::super) const EXTENSIONS: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
 
 /// The extension's object in a view or a buffer.
-pub(super) fn extension(object: &Value) -> Option<&Value> {
+pub(in super::super) fn extension(object: &Value) -> Option<&Value> {
     let extensions = object.get("extensions")?;
     EXTENSIONS.iter().find_map(|name| extensions.get(name))
 }
