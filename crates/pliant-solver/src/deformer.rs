@@ -23,6 +23,12 @@ pub trait Deformer: Send {
     /// [`SolveError::NoHandles`], `HeldOutOfRange`, `HeldTwice`, `Indefinite`, `TooLarge`. All is as it was then.
     fn set_held(&mut self, held: &[VertexId]) -> Result<(), SolveError>;
 
+    /// Replaces the current pose: positions of all vertices. Embedded deformation comes as near to them as it can.
+    ///
+    /// # Errors
+    /// [`SolveError::WrongLength`], `TargetNotFinite`. All is as it was then.
+    fn set_pose(&mut self, positions: &[DVec3]) -> Result<(), SolveError>;
+
     /// Begins anew.
     fn start(&mut self, start: Start);
 
@@ -38,8 +44,18 @@ pub trait Deformer: Send {
         self.local_step()
     }
 
+    /// One iteration, unless `is_wanted` says no while nothing has moved yet: then none is returned. Methods that cannot
+    /// give way do not ask.
+    fn step_while(&mut self, is_wanted: &mut (dyn FnMut() -> bool + Send)) -> Option<StepReport> {
+        let _ = is_wanted;
+        Some(self.step())
+    }
+
     /// Positions of all vertices written into `out`; entries beyond the vertices stay.
     fn positions_into(&self, out: &mut [DVec3]);
+
+    /// The share of each vertex in the energy. None where vertices have none: with embedded deformation it is the nodes'.
+    fn vertex_energies(&self) -> Option<Vec<f64>>;
 
     /// Components without a held vertex: (vertex count, first vertex), by first vertex.
     fn loose_components(&self) -> &[(usize, VertexId)];
@@ -105,7 +121,7 @@ impl Method {
 }
 
 macro_rules! deformer {
-    ($type:ty) => {
+    ($type:ty { $($own:item)* }) => {
         impl Deformer for $type {
             fn set_targets(&mut self, targets: &[DVec3]) -> Result<(), SolveError> {
                 self.set_targets(targets)
@@ -113,6 +129,10 @@ macro_rules! deformer {
 
             fn set_held(&mut self, held: &[VertexId]) -> Result<(), SolveError> {
                 self.set_held(held)
+            }
+
+            fn set_pose(&mut self, positions: &[DVec3]) -> Result<(), SolveError> {
+                self.set_pose(positions)
             }
 
             fn start(&mut self, start: Start) {
@@ -134,10 +154,108 @@ macro_rules! deformer {
             fn loose_components(&self) -> &[(usize, VertexId)] {
                 self.loose_components()
             }
+
+            $($own)*
         }
     };
 }
 
-deformer!(Solver);
-deformer!(SrArap);
-deformer!(Embedded);
+deformer!(Solver {
+    fn step_while(&mut self, is_wanted: &mut (dyn FnMut() -> bool + Send)) -> Option<StepReport> {
+        self.step_while(is_wanted)
+    }
+
+    fn vertex_energies(&self) -> Option<Vec<f64>> {
+        Some(self.vertex_energies())
+    }
+});
+deformer!(SrArap {
+    fn vertex_energies(&self) -> Option<Vec<f64>> {
+        Some(self.vertex_energies())
+    }
+});
+deformer!(Embedded {
+    fn vertex_energies(&self) -> Option<Vec<f64>> {
+        None
+    }
+});
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Weights;
+    use crate::test_support::{arc, box_bar, farthest};
+
+    fn methods() -> [Method; 3] {
+        let sizes = Rigidity::uniform(354, 2);
+        [
+            Method::RRing(sizes),
+            Method::SrArap { alpha: Method::ALPHA },
+            Method::Embedded { nodes: 60, neighbors: Method::NODE_NEIGHBORS },
+        ]
+    }
+
+    /// A bar bent by 100 degrees, prepared by a method.
+    fn bent(method: &Method) -> Box<dyn Deformer> {
+        let mesh = box_bar([20, 4, 4], DVec3::new(5.0, 1.0, 1.0));
+        assert_eq!(mesh.n_vertices(), 354, "as many as have sizes");
+        let (held, targets) = arc(&mesh, 5.0, 100f64.to_radians());
+        let analysis = Arc::new(Analysis::new(Arc::new(mesh), Weights::Clamped));
+        let prepared = method.prepare(analysis, &held, LooseComponents::KeepAtRest, Minimizer::Lbfgs);
+        let mut deformer = prepared.expect("solvable");
+        deformer.set_targets(&targets).expect("finite");
+        deformer.start(Start::Auto);
+        deformer
+    }
+
+    fn positions(deformer: &dyn Deformer) -> Vec<DVec3> {
+        let mut out = vec![DVec3::ZERO; 354];
+        deformer.positions_into(&mut out);
+        out
+    }
+
+    #[test]
+    fn every_method_goes_on_from_a_pose_that_is_given_back_to_it() {
+        for method in methods() {
+            let mut deformer = bent(&method);
+            let settled = (0..80).map(|_| deformer.step().energy).last().expect("steps");
+            let pose = positions(&*deformer);
+            deformer.start(Start::Rest);
+            deformer.set_pose(&pose).expect("as many");
+            let first = deformer.step().energy;
+            // Rotations and nodes are found anew from positions alone: near the end, not at it.
+            assert!(first < 1.1 * settled, "{method:?}: {first} after {settled}");
+            let last = (0..80).map(|_| deformer.step().energy).last().expect("steps");
+            assert!((last - settled).abs() < 1e-3 * settled, "{method:?}: {last}, expected {settled}");
+            let (v, off) = farthest(&positions(&*deformer), &pose);
+            assert!(off < 0.02, "{method:?}: vertex {v} is off by {off}");
+        }
+    }
+
+    #[test]
+    fn a_pose_of_another_method_is_where_the_next_one_begins() {
+        let mut deformers = methods().map(|method| bent(&method));
+        deformers.iter_mut().for_each(|deformer| (0..20).for_each(|_| _ = deformer.step()));
+        let pose = positions(&*deformers[0]);
+        for deformer in &mut deformers[1..] {
+            deformer.start(Start::Rest);
+            deformer.set_pose(&pose).expect("as many");
+            let (v, off) = farthest(&positions(&**deformer), &pose);
+            // Sixty nodes on a bar of five: each carries what lies within half of its thickness.
+            assert!(off < 0.15, "vertex {v} is off by {off}");
+            assert!(deformer.set_pose(&pose[1..]).is_err());
+        }
+    }
+
+    #[test]
+    fn energies_of_vertices_add_up_to_that_of_the_whole() {
+        for method in methods() {
+            let mut deformer = bent(&method);
+            let energy = deformer.step().energy;
+            if let Some(shares) = deformer.vertex_energies() {
+                let sum: f64 = shares.iter().sum();
+                assert!((sum - energy).abs() < 1e-9 * energy, "{method:?}: {sum}, expected {energy}");
+            }
+        }
+    }
+}

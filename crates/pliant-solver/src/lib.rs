@@ -42,7 +42,8 @@
 //! for any ω without looking at the poses again ([`EnergyTable::learn`]). [`Rigidity::smoothed`] removes specks.
 //!
 //! # Other methods
-//! [`SrArap`] and [`Embedded`] are there to be compared with; [`Method`] prepares any of them for the same steps.
+//! [`SrArap`] and [`Embedded`] are there to be compared with; [`Method`] prepares any of them for the same steps, and
+//! [`arap_energies`] judges what they come to by one measure.
 //!
 //! # Differences from the paper
 //! - Equations (4) and (5) print a factor 2 on the left side only, with which R = I would shrink the rest pose by half.
@@ -120,6 +121,7 @@ mod rings;
 mod solver;
 mod sr_arap;
 mod start;
+mod strain;
 #[cfg(test)]
 mod test_support;
 #[cfg(test)]
@@ -140,3 +142,4 @@ pub use rings::neighborhoods::Neighborhoods;
 pub use solver::{Minimizer, Solver, StepReport};
 pub use sr_arap::SrArap;
 pub use start::Start;
+pub use strain::arap_energies;

@@ -39,6 +39,7 @@ mod direction;
 mod energy;
 mod frames;
 mod graph;
+mod pose;
 mod quadratic;
 mod sampling;
 mod start;
@@ -80,7 +81,7 @@ const KEPT: f64 = 1e-4;
 /// | `set_targets`, `start` | copies; up to four steps for [`Start::Auto`](crate::Start::Auto) |
 /// | `step` | some solves with six unknowns a node, at times a factorization; nothing depends on the number of vertices |
 /// | `positions_into` | a pass over the vertices |
-/// | `set_rest` | a pass over the vertices |
+/// | `set_rest`, `set_pose` | a pass over the vertices |
 pub struct Embedded {
     analysis: Arc<Analysis>,
     graph: Arc<DeformationGraph>,
@@ -146,17 +147,23 @@ impl Embedded {
         Ok(new)
     }
 
-    /// Other held vertices. What the nodes do stays; the targets are the current positions until
-    /// [`Embedded::set_targets`].
+    /// Other held vertices. What the nodes do stays, nearly so in components that were not held; the targets are the current
+    /// positions until [`Embedded::set_targets`].
     ///
     /// # Errors
     /// As [`Embedded::new`]. On error all is as it was.
     pub fn set_held(&mut self, vertices: &[VertexId]) -> Result<(), SolveError> {
         let held = Held::new(&self.analysis.layout, vertices, &self.analysis.layout.rest, self.policy)?;
+        let pose = self.positions();
         let before = std::mem::replace(&mut self.held, held);
-        if let Err(error) = self.activate() {
-            self.held = before;
-            return Err(error);
+        match self.activate() {
+            // Nodes of a component that nothing held until now take over what it did.
+            Ok(is_new) if is_new.contains(&true) => self.fit_nodes(&pose, |place| is_new[place]),
+            Ok(_) => {}
+            Err(error) => {
+                self.held = before;
+                return Err(error);
+            }
         }
         let table = self.table();
         let mut targets = vec![DVec3::ZERO; vertices.len()];
@@ -310,14 +317,15 @@ impl Embedded {
         RigidMotion::fit(places.iter().map(pair), otherwise)
     }
 
-    /// Finds the nodes that held vertices have a hold on; where they are others than before, begins anew with those.
-    fn activate(&mut self) -> Result<(), SolveError> {
+    /// Finds the nodes that held vertices have a hold on; where they are others than before, begins anew with those. Returns
+    /// which of the active nodes are new, if any can be.
+    fn activate(&mut self) -> Result<Vec<bool>, SolveError> {
         let layout = &self.analysis.layout;
         let is_held = |component: u32| !self.held.by_component.list(component as usize).is_empty();
         let is_active = |node: &u32| is_held(layout.component[self.graph.nodes[*node as usize] as usize]);
         let active: Vec<u32> = (0..self.graph.n_nodes() as u32).filter(is_active).collect();
         if active == self.active {
-            return Ok(());
+            return Ok(Vec::new());
         }
         let mut place_of = vec![INACTIVE; self.graph.n_nodes()];
         active.iter().enumerate().for_each(|(place, &node)| place_of[node as usize] = place as u32);
@@ -329,13 +337,14 @@ impl Embedded {
         let terms = Terms { nodes, links, held: HeldTerms::default() };
         self.direction = Some(Direction::new(&terms).map_err(explain)?);
         let state = |&node: &u32| self.place_of[node as usize];
+        let is_new = active.iter().map(|node| state(node) == INACTIVE).collect();
         self.x = active.iter().map(|node| self.x.get(state(node) as usize).copied().unwrap_or(IDENTITY)).collect();
         self.quadratic = Quadratic::new(&terms);
         for buffer in [&mut self.gradient, &mut self.change, &mut self.tried] {
             *buffer = vec![affine::ZERO; active.len()];
         }
         (self.active, self.place_of, self.terms) = (active, place_of, terms);
-        Ok(())
+        Ok(is_new)
     }
 
     /// The terms of the held vertices.

@@ -101,25 +101,28 @@ impl Field<'_> {
 
     /// E; `parts` is room for the sum of every chunk.
     pub(super) fn energy(&self, turns: &[Turn], parts: &mut [f64]) -> f64 {
-        let Field { layout, constants, positions } = *self;
-        let turn = |v: usize| turns[constants.colors.place_of[v] as usize].r;
-        let n = layout.n_vertices();
+        let n = self.layout.n_vertices();
         chunks_with(n, &mut vec![(); n][..], parts, |first, items| {
-            let mut sum = 0.0;
-            for i in first..first + items.len() {
-                let mine = turn(i);
-                for spoke in layout.spokes(i) {
-                    let (j, w) = (spoke.vertex as usize, layout.weight[spoke.edge as usize]);
-                    let (rest, now) = (layout.rest[i] - layout.rest[j], positions[i] - positions[j]);
-                    let unlike = mine - turn(j);
-                    let squares = unlike.x_axis.length_squared()
-                        + unlike.y_axis.length_squared()
-                        + unlike.z_axis.length_squared();
-                    sum += w * (now - mine * rest).length_squared() + constants.share[i] * squares;
-                }
-            }
-            sum
+            (first..first + items.len()).map(|i| self.energy_of(i, turns)).sum()
         });
         parts[..n.div_ceil(CHUNK)].iter().sum()
+    }
+
+    /// The summand of vertex i in E.
+    #[inline]
+    pub(super) fn energy_of(&self, i: usize, turns: &[Turn]) -> f64 {
+        let Field { layout, constants, positions } = *self;
+        let turn = |v: usize| turns[constants.colors.place_of[v] as usize].r;
+        let mine = turn(i);
+        let mut sum = 0.0;
+        for spoke in layout.spokes(i) {
+            let (j, w) = (spoke.vertex as usize, layout.weight[spoke.edge as usize]);
+            let (rest, now) = (layout.rest[i] - layout.rest[j], positions[i] - positions[j]);
+            let unlike = mine - turn(j);
+            let squares =
+                unlike.x_axis.length_squared() + unlike.y_axis.length_squared() + unlike.z_axis.length_squared();
+            sum += w * (now - mine * rest).length_squared() + constants.share[i] * squares;
+        }
+        sum
     }
 }

@@ -28,6 +28,7 @@
 
 mod colors;
 mod field;
+mod pose;
 #[cfg(test)]
 mod tests;
 
@@ -53,6 +54,7 @@ use field::{Constants, Field, Turn};
 /// |---|---|
 /// | `new`, `set_held` | numeric factorization |
 /// | `set_targets` | copies |
+/// | `set_pose` | three local steps |
 /// | `start` | copies; up to four steps for [`Start::Auto`] |
 /// | `step` | two solves, a sweep, three passes over the edges |
 pub struct SrArap {
