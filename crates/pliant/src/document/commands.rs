@@ -4,7 +4,7 @@ use glam::{DAffine3, DVec3};
 use pliant_solver::{LooseComponents, Rigidity, RigidityError, VertexId, Weights};
 
 use super::grouping::{add, hold, merge, remove};
-use super::{ActiveGroups, Group, GroupColor, GroupId, GroupKind, Scene, Selection};
+use super::{ActiveGroups, Group, GroupColor, GroupId, GroupKind, Method, Scene, Selection};
 
 /// How newly selected vertices join those already selected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -88,6 +88,8 @@ pub enum Command {
     SetWeights(Weights),
     /// Changes what parts without handles do.
     SetLoose(LooseComponents),
+    /// Changes the method that bends the surface, or its parameters.
+    SetMethod(Method),
     /// Every group back to rest, and the surface with them.
     ResetPose,
 }
@@ -119,6 +121,16 @@ pub enum CommandError {
         r: u16,
         /// Largest allowed.
         max: u16,
+    },
+    /// A parameter of a method out of range.
+    #[error("{what} must be {allowed}, not {value}")]
+    BadParameter {
+        /// Which.
+        what: &'static str,
+        /// Asked for.
+        value: String,
+        /// What it may be.
+        allowed: String,
     },
     /// Learned from another surface.
     #[error("rigidity for {got} vertices does not fit this surface, which has {expected}: learn it from this mesh")]
@@ -168,6 +180,7 @@ impl Command {
             Command::Select(..) => "Select",
             Command::SetWeights(_) => "Change weights",
             Command::SetLoose(_) => "Change loose parts",
+            Command::SetMethod(_) => "Change method",
             Command::ResetPose => "Reset pose",
         }
     }
@@ -234,6 +247,12 @@ pub(super) fn changed(scene: &Scene, command: Command, around: Surroundings<'_>)
         }
         Command::SetWeights(weights) => next.weights = weights,
         Command::SetLoose(loose) => next.loose = loose,
+        Command::SetMethod(method) => {
+            if let Some((what, value, allowed)) = method.fault() {
+                return Err(CommandError::BadParameter { what, value, allowed });
+            }
+            next.method = method;
+        }
         Command::ResetPose => {
             let mut groups = scene.groups.to_vec();
             groups.iter_mut().for_each(|group| to_rest(group, around.rest));

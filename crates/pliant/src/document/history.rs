@@ -111,6 +111,7 @@ mod tests {
             active: crate::document::ActiveGroups::default(),
             weights: Weights::default(),
             loose: LooseComponents::default(),
+            method: crate::document::Method::default(),
         };
         Snapshot { scene, pose: Pose { positions: vec![glam::DVec3::splat(x); 100].into() } }
     }

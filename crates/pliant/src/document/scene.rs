@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use pliant_solver::{LooseComponents, Rigidity, VertexId, Weights};
 
-use super::{ActiveGroups, Group, GroupId, Model};
+use super::{ActiveGroups, Group, GroupId, Method, Model};
 
 /// A set of surface points, sorted. Cheap to clone.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -51,6 +51,8 @@ pub struct Scene {
     pub weights: Weights,
     /// What parts without handles do.
     pub loose: LooseComponents,
+    /// How the surface bends.
+    pub method: Method,
 }
 
 impl Scene {
@@ -65,6 +67,7 @@ impl Scene {
             weights: Weights::default(),
             // Eyes and buttons are parts of their own in most files, and nobody wants them left behind.
             loose: LooseComponents::FollowNearest,
+            method: Method::default(),
         }
     }
 
@@ -95,7 +98,8 @@ impl Scene {
                 && (Arc::ptr_eq(&a.vertices, &b.vertices) || a.vertices == b.vertices)
                 && (Arc::ptr_eq(&a.base, &b.base) || a.base == b.base)
         };
-        self.rigidity == other.rigidity
+        self.method.solves_like(&other.method)
+            && (!self.method.kind.uses_rigidity() || self.rigidity == other.rigidity)
             && self.weights == other.weights
             && self.loose == other.loose
             && self.groups.len() == other.groups.len()

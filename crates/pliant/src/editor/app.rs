@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 
 use egui::{CentralPanel, Frame, Margin, Panel};
 
+use super::compare_view::CompareView;
 use super::keyboard::Keyboard;
 use super::panels::{self, Dialog, DialogOutcome, Loss};
 use super::viewport_panel::ViewportPanel;
@@ -28,6 +29,7 @@ pub enum EditorError {
 pub struct EditorApp {
     session: Session,
     viewport: ViewportPanel,
+    compare: CompareView,
     dialog: Dialog,
     keyboard: Keyboard,
     title: String,
@@ -67,6 +69,7 @@ impl EditorApp {
         Ok(EditorApp {
             session,
             viewport: ViewportPanel::new(render_state),
+            compare: CompareView::default(),
             dialog: Dialog::None,
             keyboard: Keyboard::default(),
             title: String::new(),
@@ -248,7 +251,7 @@ impl eframe::App for EditorApp {
         let begun = Instant::now();
         let ctx = ui.ctx().clone();
         let mut chosen = Vec::new();
-        if self.dialog == Dialog::None {
+        if self.dialog == Dialog::None && !self.compare.is_asking() {
             chosen.extend(self.keyboard.take(&ctx, &mut self.session));
         }
         let theme_before = self.session.look.theme;
@@ -267,8 +270,8 @@ impl eframe::App for EditorApp {
         });
         CentralPanel::no_frame().show(ui, |ui| {
             let rect = ui.available_rect_before_wrap();
-            self.viewport.show(ui, &mut self.session);
-            panels::legend(ui, rect, &mut self.session);
+            let picture = self.compare.show(ui, &mut self.viewport, &mut self.session);
+            panels::legend(ui, picture, &mut self.session);
             panels::learn(ui, rect, &mut self.session);
             panels::welcome(ui, rect, &mut self.session);
             panels::notices(ui, rect, &mut self.session);

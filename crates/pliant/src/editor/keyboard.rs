@@ -3,7 +3,7 @@
 use egui::{Event, Key, Modifiers};
 
 use super::{Action, Session};
-use crate::tools::{Input, Options, ToolKey};
+use crate::tools::Options;
 
 /// Two digits typed within this time, with nothing else between, are one number. By hand: slow typing takes half of it.
 const TYPED_TOGETHER_SECS: f64 = 0.6;
@@ -26,7 +26,7 @@ impl Keyboard {
         }
         // An open menu closes by Esc itself.
         if !egui::Popup::is_any_open(ctx) && ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {
-            session.input(Input::Key(ToolKey::Escape));
+            session.escape();
         }
         let actions = session.shortcuts.take(ctx, |_| true);
         self.digits(ctx, session);

@@ -2,6 +2,8 @@
 
 mod actions;
 mod app;
+mod compare;
+mod compare_view;
 mod jobs;
 mod keyboard;
 mod learning;
@@ -20,6 +22,7 @@ mod welcome;
 
 pub use actions::{Action, Menu};
 pub use app::{EditorApp, EditorError, FrameWork, run};
+pub use compare::{Compare, Measures, Pane, PaneKind};
 pub use jobs::{Job, JobEvent, Opened};
 pub use learning::{Learning, Omega, Settings, Shown, Trial, View as LearningView};
 pub use look::{ColorBy, Look};

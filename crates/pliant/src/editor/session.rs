@@ -1,6 +1,8 @@
 //! The editor without its window: what is open, which tool is in hand, what the solver said. Everything the window
 //! does goes through here, and so can a test.
 
+mod compare;
+mod method;
 mod views;
 
 use std::path::Path;
@@ -37,6 +39,8 @@ pub struct Session {
     pub shortcuts: Shortcuts,
     /// Rigidity being learned from poses, while its panel is open.
     pub learning: Option<Learning>,
+    /// Methods side by side, while that is open.
+    compare: Option<super::Compare>,
     wake: Arc<dyn Fn() + Send + Sync>,
     viewport_size: Vec2,
     worker: Worker,
@@ -63,6 +67,7 @@ impl Session {
             welding: Welding::Exact,
             shortcuts: Shortcuts::default(),
             learning: None,
+            compare: None,
             wake: wake.clone(),
             viewport_size: Vec2::new(800.0, 600.0),
             worker: Worker::start(move || wake_worker())?,
@@ -125,6 +130,7 @@ impl Session {
         self.tool = self.tool_kind.new_tool();
         self.status = Status::default();
         self.learning = None;
+        self.compare = None;
         self.sent = None;
         self.welcome = (sample == Some(Sample::Creature)).then(Welcome::default);
         self.open = Some(Open::new(opened, sample));
@@ -139,6 +145,7 @@ impl Session {
         if let Some(learning) = &mut self.learning {
             learning.poll();
         }
+        self.poll_compare();
         let mut for_window = Vec::new();
         while let Some(event) = self.jobs.poll() {
             match event {
@@ -261,6 +268,7 @@ impl Session {
             self.sent = Some(wish);
             self.worker.request(SolveRequest::of(&open.document, wish.1));
         }
+        self.tell_compare();
     }
 
     /// Changes the picture's settings.
@@ -301,6 +309,7 @@ impl Session {
         for command in reaction.commands {
             self.apply(command);
         }
+        self.tell_compare();
     }
 
     /// Asks the tool in hand about its looks.

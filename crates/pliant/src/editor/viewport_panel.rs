@@ -59,6 +59,8 @@ pub(super) struct ViewportPanel {
     /// What lay under the pointer when the tool last heard of it: the tool, the surface and the camera.
     hovered: Option<(ToolKind, *const SurfaceFrame, Camera)>,
     cache: Cache,
+    /// What the last picture showed.
+    shown: Option<ViewScene>,
     /// When something last moved, for pictures made by the processor.
     moved_at: std::time::Instant,
     /// Whether pictures are made by the processor.
@@ -84,7 +86,23 @@ impl ViewportPanel {
             pointer: None,
             hovered: None,
             cache: Cache::default(),
+            shown: None,
         }
+    }
+
+    /// What the last picture showed, for others beside it.
+    pub(super) fn shown(&self) -> Option<&ViewScene> {
+        self.shown.as_ref()
+    }
+
+    /// A renderer for a picture beside this one.
+    pub(super) fn sibling(&self) -> Renderer {
+        self.renderer.sibling()
+    }
+
+    /// The device, and what egui draws with.
+    pub(super) fn render_state(&self) -> &eframe::egui_wgpu::RenderState {
+        &self.render_state
     }
 
     /// Takes input and shows the picture; fills the rest of `ui`.
@@ -229,6 +247,7 @@ impl ViewportPanel {
             ui.painter().rect_filled(rect, 0.0, theme::palette(session.look.theme).well);
             return;
         };
+        self.shown = Some(scene.clone());
         let size = (rect.size() * pixels_per_point).round().max(egui::Vec2::splat(1.0));
         let begun = std::time::Instant::now();
         if self.is_software {

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 /// Holds at most one value, and a flag that no more will come.
 #[derive(Debug)]
-pub(super) struct Mailbox<T> {
+pub(crate) struct Mailbox<T> {
     inner: Mutex<Inner<T>>,
     arrived: Condvar,
 }
@@ -18,20 +18,20 @@ struct Inner<T> {
 
 /// The sender is gone.
 #[derive(Debug, PartialEq, Eq)]
-pub(super) struct Closed;
+pub(crate) struct Closed;
 
 impl<T> Mailbox<T> {
-    pub(super) fn new() -> Mailbox<T> {
+    pub(crate) fn new() -> Mailbox<T> {
         Mailbox { inner: Mutex::new(Inner { letter: None, closed: false }), arrived: Condvar::new() }
     }
 
     /// Replaces what has not been taken yet.
-    pub(super) fn put(&self, letter: T) {
+    pub(crate) fn put(&self, letter: T) {
         self.put_over(letter, |_, new| new);
     }
 
     /// Replaces what has not been taken yet by what `merge` makes of it and the new letter.
-    pub(super) fn put_over(&self, letter: T, merge: impl FnOnce(T, T) -> T) {
+    pub(crate) fn put_over(&self, letter: T, merge: impl FnOnce(T, T) -> T) {
         let mut inner = self.lock();
         inner.letter = Some(match inner.letter.take() {
             Some(old) => merge(old, letter),
@@ -42,19 +42,19 @@ impl<T> Mailbox<T> {
     }
 
     /// The newest letter, if one has come since the last look.
-    pub(super) fn take(&self) -> Result<Option<T>, Closed> {
+    pub(crate) fn take(&self) -> Result<Option<T>, Closed> {
         let mut inner = self.lock();
         if inner.closed { Err(Closed) } else { Ok(inner.letter.take()) }
     }
 
     /// Whether a letter of that kind is there to be taken, or no more will come.
-    pub(super) fn has(&self, kind: impl FnOnce(&T) -> bool) -> bool {
+    pub(crate) fn has(&self, kind: impl FnOnce(&T) -> bool) -> bool {
         let inner = self.lock();
         inner.closed || inner.letter.as_ref().is_some_and(kind)
     }
 
     /// Sleeps until a letter comes.
-    pub(super) fn wait(&self) -> Result<T, Closed> {
+    pub(crate) fn wait(&self) -> Result<T, Closed> {
         let mut inner = self.lock();
         loop {
             if inner.closed {
@@ -68,7 +68,7 @@ impl<T> Mailbox<T> {
     }
 
     /// Sleeps until a letter comes, at most so long.
-    pub(super) fn wait_for(&self, patience: Duration) -> Result<Option<T>, Closed> {
+    pub(crate) fn wait_for(&self, patience: Duration) -> Result<Option<T>, Closed> {
         let until = Instant::now() + patience;
         let mut inner = self.lock();
         loop {
@@ -84,7 +84,7 @@ impl<T> Mailbox<T> {
     }
 
     /// Wakes whoever waits, for the last time.
-    pub(super) fn close(&self) {
+    pub(crate) fn close(&self) {
         self.lock().closed = true;
         self.arrived.notify_all();
     }

@@ -2,7 +2,7 @@
 //!
 //! | measure | at each vertex | unit |
 //! |---|---|---|
-//! | energy | its share E_k of eq. 1 (Fig. 3 of the paper) | squared file units |
+//! | energy | its share E_k of eq. 1 (Fig. 3 of the paper) or of another method's energy; where vertices have none (embedded deformation), E_k at r = 1 | squared file units |
 //! | energy difference | the largest difference of that share to a neighbor (Fig. 3c, e, g) | the same |
 //! | stretch | ln(length / length at rest) of the edge that changed most | – |
 //!

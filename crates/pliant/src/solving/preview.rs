@@ -47,6 +47,11 @@ impl Previews {
         Previews { limits, graph: is_large.then(|| made_in_background(analysis.clone())), bent: None, shown: None }
     }
 
+    /// Never any.
+    pub(super) fn none() -> Previews {
+        Previews { limits: LIMITS, graph: None, bent: None, shown: None }
+    }
+
     /// Whether a preview can be had where an iteration takes so long.
     pub(super) fn serve(&self, iteration_ms: f64) -> bool {
         iteration_ms > self.limits.iteration_ms && self.graph.as_ref().is_some_and(|graph| graph.get().is_some())

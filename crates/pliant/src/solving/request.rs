@@ -1,13 +1,12 @@
 //! What is said between the document and the solver thread.
 
-use std::sync::Arc;
+use std::sync::{Arc, Weak};
 
 use pliant_solver::{LooseComponents, Rigidity, Weights};
 
-use crate::document::{Document, Group, Model, Pose};
+use super::{Groundwork, Measure, Measured};
+use crate::document::{Document, Group, Method, MethodKind, Model, Pose};
 use crate::viewport::SurfaceFrame;
-
-use super::{Measure, Measured};
 
 /// The whole wish: not what changed, but what should hold.
 #[derive(Clone)]
@@ -20,7 +19,9 @@ pub struct SolveRequest {
     pub pose: Pose,
     /// The surface.
     pub model: Arc<Model>,
-    /// r of every surface point.
+    /// How the surface bends.
+    pub method: Method,
+    /// r of every surface point, as the method has it: 1 everywhere for ARAP; others than r-ring do not look at it.
     pub rigidity: Rigidity,
     /// Held vertices and where they must be.
     pub groups: Arc<[Group]>,
@@ -41,12 +42,34 @@ impl SolveRequest {
             epoch: document.epoch(),
             pose: document.pose().clone(),
             model: document.model().clone(),
-            rigidity: scene.rigidity.clone(),
+            method: scene.method,
+            rigidity: match scene.method.kind {
+                MethodKind::Arap => Rigidity::uniform(document.model().mesh.n_vertices(), 1),
+                _ => scene.rigidity.clone(),
+            },
             groups: scene.groups.clone(),
             weights: scene.weights,
             loose: scene.loose,
             measure,
         }
+    }
+
+    /// Whether what is being searched for an older wish would be of no use to this one.
+    pub fn is_other_search(&self, older: &SolveRequest) -> bool {
+        !Arc::ptr_eq(&self.model, &older.model)
+            || self.weights != older.weights
+            || self.rigidity != older.rigidity
+            || !self.method.solves_like(&older.method)
+            || self.groups.is_empty()
+    }
+
+    /// Whether it is for another method, other sizes or other held vertices than an older one, and not only for other
+    /// targets, which the surface follows on the way.
+    pub fn is_other_system(&self, older: &SolveRequest) -> bool {
+        self.is_other_search(older)
+            || self.epoch != older.epoch
+            || self.groups.len() != older.groups.len()
+            || self.groups.iter().zip(older.groups.iter()).any(|(new, old)| new.vertices != old.vertices)
     }
 }
 
@@ -83,7 +106,7 @@ pub struct SolveReport {
     pub pose: Option<Pose>,
     /// The same in view space with normals, ready for the picture.
     pub frame: Option<Arc<SurfaceFrame>>,
-    /// Energy (paper eq. 1), in the file's units.
+    /// Energy of the method: eq. 1 of the paper for r-ring, in the file's units.
     pub energy: f64,
     /// Iterations since the solver was built or last started anew after a leap of the handles.
     pub iteration: u64,
@@ -97,4 +120,6 @@ pub struct SolveReport {
     pub measured: Option<Measured>,
     /// What the user should know: parts without a handle, for instance.
     pub remarks: Vec<String>,
+    /// What the solver stands on, while it is there: others may stand on it too.
+    pub ground: Weak<Groundwork>,
 }

@@ -87,7 +87,7 @@ fn run(inbox: &Mailbox<SolveRequest>, mut send: impl FnMut(SolveReport) + Send) 
             if engine.is_busy() && !engine.is_previewing() {
                 let about = newest.as_ref();
                 let previews = engine.can_preview();
-                let other = |newer: &SolveRequest| previews || about.is_none_or(|about| is_other_system(newer, about));
+                let other = |newer: &SolveRequest| previews || about.is_none_or(|about| newer.is_other_system(about));
                 let mut is_wanted = || !inbox.has(other);
                 // What an iteration on the way would find is of no use to a newer wish for another system.
                 let Some(took) = engine.step(&mut is_wanted) else { return };
@@ -132,7 +132,7 @@ fn turn_to(
     let mut told = Instant::now();
     let about = wish.clone();
     engine.adopt(wish, &mut |progress| {
-        if inbox.has(|newer| is_other_search(newer, &about)) {
+        if inbox.has(|newer| newer.is_other_search(&about)) {
             return ControlFlow::Break(());
         }
         if told.elapsed() >= PROGRESS_EVERY {
@@ -141,23 +141,6 @@ fn turn_to(
         }
         ControlFlow::Continue(())
     })
-}
-
-/// Whether what is being searched for one wish would be of no use to a newer one.
-fn is_other_search(newer: &SolveRequest, older: &SolveRequest) -> bool {
-    !Arc::ptr_eq(&newer.model, &older.model)
-        || newer.weights != older.weights
-        || newer.rigidity != older.rigidity
-        || newer.groups.is_empty()
-}
-
-/// Whether a newer wish is for other sizes or other held vertices, and not only for other targets, which the surface
-/// follows on the way.
-fn is_other_system(newer: &SolveRequest, older: &SolveRequest) -> bool {
-    is_other_search(newer, older)
-        || newer.epoch != older.epoch
-        || newer.groups.len() != older.groups.len()
-        || newer.groups.iter().zip(older.groups.iter()).any(|(new, old)| new.vertices != old.vertices)
 }
 
 fn bare_report(wish: &SolveRequest, state: SolveState) -> SolveReport {
@@ -175,6 +158,7 @@ fn bare_report(wish: &SolveRequest, state: SolveState) -> SolveReport {
         energies: Arc::new([]),
         measured: None,
         remarks: Vec::new(),
+        ground: std::sync::Weak::new(),
     }
 }
 
@@ -260,13 +244,13 @@ mod tests {
         let older = wish(&document);
         let motion = glam::DAffine3::from_translation(DVec3::Z);
         document.apply(Command::Move { group, motion }).expect("finite");
-        assert!(!is_other_system(&wish(&document), &older), "a drag");
+        assert!(!wish(&document).is_other_system(&older), "a drag");
         let dragged = wish(&document);
         document.apply(Command::Paint { values: vec![(VertexId(3), 2)] }).expect("a good size");
-        assert!(is_other_system(&wish(&document), &dragged), "a dab");
+        assert!(wish(&document).is_other_system(&dragged), "a dab");
         let painted = wish(&document);
         hold(&mut document, 10);
-        assert!(is_other_system(&wish(&document), &painted), "a handle");
+        assert!(wish(&document).is_other_system(&painted), "a handle");
     }
 
     #[test]

@@ -81,6 +81,12 @@ actions! {
     LOOK_TOP = from("view.top", "Top").key(ALT, Key::Num7).does(|session| look_from(session, Axis::Top));
     /// From below.
     LOOK_BOTTOM = from("view.bottom", "Bottom").does(|session| look_from(session, Axis::Bottom));
+    /// All methods side by side.
+    COMPARE = Entry::new("view.compare", "Compare methods", "Solve the handles by every method, side by side")
+        .key(NONE, Key::C)
+        .apart()
+        .on(|session| session.compare().is_some())
+        .does(Session::toggle_compare);
     /// Dark or light.
     TOGGLE_THEME = Entry::new("view.light", "Light window", "Switch between the light and the dark window")
         .anytime()

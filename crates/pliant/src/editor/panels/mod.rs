@@ -11,6 +11,7 @@ mod notices;
 mod paint;
 mod rail;
 mod sections;
+mod solver;
 mod status;
 mod view;
 mod welcome;

@@ -54,6 +54,7 @@ pub(super) fn rigidity(ui: &mut Ui, session: &mut Session, chosen: &mut Option<A
         };
         ui.label(RichText::new(text).weak());
     }
+    super::solver::rigidity_note(ui, session);
     ui.horizontal_wrapped(|ui| {
         for action in [Action::FILL_ALL, Action::LEARN_RIGIDITY] {
             if action_button(ui, session, action).clicked() {

@@ -1,12 +1,10 @@
 //! The sections of the inspector.
 
 use egui::{RichText, Slider, Ui};
-use egui_plot::{Line, Plot, PlotPoints};
-use pliant_solver::{LooseComponents, Weights};
 
 use super::action_button;
 use crate::document::{Command, Group, GroupKind};
-use crate::editor::{Action, Session, theme};
+use crate::editor::{Action, Session};
 use crate::tools::{Options, SelectShape};
 
 /// Patch size of handles and anchors.
@@ -112,55 +110,4 @@ fn name_field(ui: &mut Ui, group: &Group, commands: &mut Vec<Command>) {
     } else if field.has_focus() {
         ui.data_mut(|data| data.insert_temp(id, name));
     }
-}
-
-/// Energy curve, weights, loose parts.
-pub(super) fn solver(ui: &mut Ui, session: &mut Session) {
-    plot(ui, session);
-    let Some(document) = session.document() else {
-        return;
-    };
-    let (weights, loose) = (document.scene().weights, document.scene().loose);
-    let mut commands = Vec::new();
-    ui.horizontal(|ui| {
-        ui.label("Weights");
-        for (value, label, tip) in [
-            (Weights::Clamped, "clamped", "Cotangents kept positive: right for any mesh"),
-            (Weights::Cotangent, "raw", "Cotangents as in the paper (eq. 2): can fail on irregular meshes"),
-            (Weights::Uniform, "uniform", "1 for every edge"),
-        ] {
-            if ui.selectable_label(weights == value, label).on_hover_text(tip).clicked() {
-                commands.push(Command::SetWeights(value));
-            }
-        }
-    });
-    ui.horizontal(|ui| {
-        ui.label("Parts without handle");
-        for (value, label) in [(LooseComponents::KeepAtRest, "stay"), (LooseComponents::FollowNearest, "follow")] {
-            let tip = "What separate parts of the mesh do that have no handle: stay at rest, or follow the nearest one";
-            if ui.selectable_label(loose == value, label).on_hover_text(tip).clicked() {
-                commands.push(Command::SetLoose(value));
-            }
-        }
-    });
-    commands.into_iter().for_each(|command| session.apply(command));
-}
-
-fn plot(ui: &mut Ui, session: &Session) {
-    let energies = session.status.report.as_ref().map(|report| report.energies.clone()).unwrap_or_default();
-    let points: PlotPoints<'_> =
-        energies.iter().enumerate().filter(|&(_, &e)| e > 0.0).map(|(k, &e)| [k as f64, e.log10()]).collect();
-    Plot::new("energy")
-        .height(84.0)
-        .show_axes([false, true])
-        .y_axis_formatter(|mark, _| format!("1e{:.0}", mark.value))
-        .show_grid([false, true])
-        .allow_drag(false)
-        .allow_zoom(false)
-        .allow_scroll(false)
-        .allow_boxed_zoom(false)
-        .set_margin_fraction(egui::vec2(0.02, 0.12))
-        .show(ui, |plot| plot.line(Line::new("energy", points).color(theme::ACCENT).width(1.6)))
-        .response
-        .on_hover_text("Energy of the last iterations, logarithmic");
 }

@@ -19,8 +19,9 @@ pub(in crate::editor) fn status(ui: &mut Ui, session: &mut Session, is_software:
         let report = session.status.report.as_ref().filter(|report| !report.energies.is_empty());
         if let Some(report) = report {
             ui.separator();
-            let energy = format!("energy {}", scientific(report.energy));
-            ui.label(RichText::new(energy).color(quiet).monospace()).on_hover_text("Energy of the pose (eq. 1)");
+            let kind = session.method().unwrap_or_default().kind;
+            let energy = format!("{} {}", kind.energy_name(), scientific(report.energy));
+            ui.label(RichText::new(energy).color(quiet).monospace()).on_hover_text(kind.description());
             ui.label(RichText::new(format!("iteration {:>5}", report.iteration)).color(quiet).monospace());
             let change = format!("change {}", scientific(report.relative_decrease));
             ui.label(RichText::new(change).color(quiet).monospace())
@@ -48,6 +49,9 @@ pub(in crate::editor) fn status(ui: &mut Ui, session: &mut Session, is_software:
     let hint = session.with_tool(|tool, context| tool.hint(context)).unwrap_or_else(|| "Open a mesh".into());
     ui.horizontal(|ui| {
         ui.label(RichText::new(hint).color(quiet));
+        if let Some(why) = session.idle_painting() {
+            ui.label(RichText::new(why).color(theme::ACCENT));
+        }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             let camera = "Middle or right drag: turn · Shift: move · wheel: zoom";
             ui.label(RichText::new(camera).color(quiet).small());

@@ -6,6 +6,7 @@ use super::uniforms::Picture;
 pub(super) const FETCHED: u32 = 4;
 
 /// Bind group layouts, and whether vertices can be fetched by number.
+#[derive(Clone)]
 pub(super) struct Layouts {
     /// Group 0 of every program: the uniforms of one picture.
     pub(super) picture: wgpu::BindGroupLayout,

@@ -10,6 +10,7 @@ mod layouts;
 mod marks;
 mod pipelines;
 mod readback;
+mod sibling;
 mod stream;
 mod surface;
 mod targets;

@@ -8,6 +8,7 @@ use wgpu::CompareFunction::{Always, GreaterEqual};
 use wgpu::PrimitiveTopology::{LineList, TriangleList, TriangleStrip};
 
 /// Compiled programs, whatever the number of samples.
+#[derive(Clone)]
 pub(super) struct Modules {
     background: wgpu::ShaderModule,
     surface: wgpu::ShaderModule,
@@ -49,6 +50,7 @@ impl Modules {
 }
 
 /// Everything that can be drawn, for one number of samples.
+#[derive(Clone)]
 pub(super) struct Pipelines {
     pub(super) background: wgpu::RenderPipeline,
     pub(super) surface: wgpu::RenderPipeline,
