@@ -69,8 +69,9 @@ impl HalfEdges {
 /// Items of one vertex from which on more than one thread sorts them: a fan of so many triangles.
 const MANY: usize = 1 << 14;
 
-/// Items in ascending order, which begins with the order of a vertex below `n` that each of them names. Sorting sides of
-/// faces so was measured to take a third of the time of comparing them all.
+/// Items in ascending order, which begins with the order of a vertex below `n` that each of them names. For the six million
+/// sides of two million faces this was measured to take a third of the time of comparing them all, on one thread, and four
+/// fifths where vertices are numbered at random.
 ///
 /// Items that are equal are not told apart: the result is the same for any number of threads.
 pub(crate) fn sorted<T: Copy + Ord + Send>(
