@@ -14,10 +14,10 @@ use pliant_tests::shapes;
 const NO_ADAPTER: &str = "no graphics adapter: install one, for instance `apt-get install libvulkan1 mesa-vulkan-drivers`, \
                           or run `cargo xtask test`, which does";
 
-type Window = Harness<'static, EditorApp>;
+pub(crate) type Window = Harness<'static, EditorApp>;
 
 /// The window with the paper's bar (1154 vertices) opened from a file.
-fn window(folder: &std::path::Path) -> Window {
+pub(crate) fn window(folder: &std::path::Path) -> Window {
     let path = folder.join("bar.obj");
     std::fs::write(&path, shapes::paper_bar().obj()).expect("the sample is written");
     let mut window: Window = Harness::builder()
@@ -30,7 +30,7 @@ fn window(folder: &std::path::Path) -> Window {
 }
 
 /// Steps the window until `done` says so. A minute is an eternity here: a failure, not a slow machine.
-fn step_until(window: &mut Window, what: &str, done: impl Fn(&Session) -> bool) {
+pub(crate) fn step_until(window: &mut Window, what: &str, done: impl Fn(&Session) -> bool) {
     let start = Instant::now();
     loop {
         window.step();
@@ -101,7 +101,7 @@ fn drag(window: &mut Window, from: egui::Pos2, way: egui::Vec2) {
     window.step();
 }
 
-fn press(window: &mut Window, key: egui::Key) {
+pub(crate) fn press(window: &mut Window, key: egui::Key) {
     window.key_press(key);
     window.step();
 }

@@ -4,6 +4,7 @@ mod agreement;
 mod commands;
 mod editor;
 mod editor_window;
+mod editor_words;
 mod learn_command;
 mod learning;
 mod paper_figures;

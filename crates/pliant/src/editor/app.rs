@@ -9,7 +9,7 @@ use super::compare_view::CompareView;
 use super::keyboard::Keyboard;
 use super::panels::{self, Dialog, DialogOutcome, Loss};
 use super::viewport_panel::ViewportPanel;
-use super::{Job, JobEvent, NoticeKind, Opened, Sample, Session, theme};
+use super::{Habits, Job, JobEvent, NoticeKind, Opened, Sample, Session, theme};
 
 /// Why the window could not be shown.
 #[derive(Debug, thiserror::Error)]
@@ -57,7 +57,10 @@ impl EditorApp {
         let render_state = cc.wgpu_render_state.as_ref().ok_or(EditorError::NoAdapter)?;
         let ctx = cc.egui_ctx.clone();
         let mut session = Session::new(move || ctx.request_repaint())?;
+        session.habits = cc.storage.map(stored_habits).unwrap_or_default();
         theme::apply(&cc.egui_ctx, session.look.theme);
+        // Ours are actions in the table, with bounds of their own.
+        cc.egui_ctx.options_mut(|options| options.zoom_with_keyboard = false);
         let mut files = files.into_iter();
         session.start(match files.next() {
             Some(path) => Job::Open(path),
@@ -102,7 +105,19 @@ impl EditorApp {
     }
 
     pub(super) fn show_keys(&mut self, _ctx: &egui::Context) {
-        self.dialog = Dialog::Keys;
+        self.dialog = Dialog::Keys(panels::KeySheet::default());
+    }
+
+    pub(super) fn show_palette(&mut self, _ctx: &egui::Context) {
+        self.dialog = Dialog::Palette(panels::Palette::default());
+    }
+
+    pub(super) fn show_what_rigidity_is(&mut self, _ctx: &egui::Context) {
+        self.dialog = Dialog::WhatIsRigidity;
+    }
+
+    pub(super) fn show_about(&mut self, _ctx: &egui::Context) {
+        self.dialog = Dialog::About;
     }
 
     pub(super) fn save(&mut self) {
@@ -171,6 +186,7 @@ impl EditorApp {
             DialogOutcome::Open(path) => self.lose(Loss::Open(path), ctx),
             DialogOutcome::OpenSample(sample) => self.lose(Loss::OpenSample(sample), ctx),
             DialogOutcome::Save(path) => self.save_to(path),
+            DialogOutcome::Do(action) => action.perform(self, ctx),
             DialogOutcome::Lose(loss) => self.proceed(loss, ctx),
             DialogOutcome::SaveFirst(loss) => {
                 self.after_save = Some(loss);
@@ -198,7 +214,20 @@ impl EditorApp {
     }
 }
 
+/// Where the habits are in what eframe stores.
+const HABITS: &str = "habits";
+
+fn stored_habits(storage: &dyn eframe::Storage) -> Habits {
+    storage.get_string(HABITS).and_then(|text| serde_json::from_str(&text).ok()).unwrap_or_default()
+}
+
 impl eframe::App for EditorApp {
+    fn save(&mut self, storage: &mut dyn eframe::Storage) {
+        if let Ok(text) = serde_json::to_string(&self.session.habits) {
+            storage.set_string(HABITS, text);
+        }
+    }
+
     fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
         for event in self.session.poll() {
             match (event, &mut self.dialog) {
@@ -245,6 +274,7 @@ impl eframe::App for EditorApp {
             }
         }
         self.name_window(ctx);
+        ctx.set_zoom_factor(self.session.habits.ui_scale());
     }
 
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
@@ -252,7 +282,7 @@ impl eframe::App for EditorApp {
         let ctx = ui.ctx().clone();
         let mut chosen = Vec::new();
         if self.dialog == Dialog::None && !self.compare.is_asking() {
-            chosen.extend(self.keyboard.take(&ctx, &mut self.session));
+            chosen.extend(self.keyboard.take(&ctx, &mut self.session, self.viewport.id));
         }
         let theme_before = self.session.look.theme;
         let bar = Frame::new().fill(ui.visuals().panel_fill).inner_margin(Margin::symmetric(8, 4));

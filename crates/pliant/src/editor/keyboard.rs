@@ -20,15 +20,28 @@ pub(super) struct Keyboard {
 
 impl Keyboard {
     /// Takes the keys of this frame, unless a text field wants them. Returns actions whose shortcut was pressed.
-    pub(super) fn take(&mut self, ctx: &egui::Context, session: &mut Session) -> Vec<Action> {
-        if ctx.text_edit_focused() {
-            return Vec::new();
+    /// `viewport` is the picture, which leaves all keys to the actions.
+    pub(super) fn take(
+        &mut self,
+        ctx: &egui::Context,
+        session: &mut Session,
+        viewport: Option<egui::Id>,
+    ) -> Vec<Action> {
+        let types_text = ctx.text_edit_focused();
+        if types_text {
+            return session.habits.shortcuts.take(ctx, is_not_for_text);
         }
         // An open menu closes by Esc itself.
         if !egui::Popup::is_any_open(ctx) && ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {
             session.escape();
         }
-        let actions = session.shortcuts.take(ctx, |_| true);
+        let actions = match ctx.memory(|memory| memory.focused()) {
+            // A control that has the focus is worked with these keys.
+            Some(focused) if Some(focused) != viewport => {
+                session.habits.shortcuts.take(ctx, |key, _| !works_controls(key))
+            }
+            _ => session.habits.shortcuts.take(ctx, |_, _| true),
+        };
         self.digits(ctx, session);
         brush_radius(ctx, session);
         actions
@@ -44,7 +57,7 @@ impl Keyboard {
             self.last_digit = None;
         }
         for (digit, key) in (0_u16..).zip(DIGITS) {
-            if !ctx.input_mut(|input| input.consume_key(Modifiers::NONE, key)) {
+            if !ctx.input_mut(|input| consume_plain(input, key)) {
                 continue;
             }
             let now = ctx.input(|input| input.time);
@@ -58,6 +71,27 @@ impl Keyboard {
             }
         }
     }
+}
+
+/// Takes a key that was pressed with no modifier held.
+fn consume_plain(input: &mut egui::InputState, key: Key) -> bool {
+    let before = input.events.len();
+    input.events.retain(|event| {
+        !matches!(event, Event::Key { key: pressed, pressed: true, modifiers, .. } if *pressed == key && modifiers.is_none())
+    });
+    input.events.len() < before
+}
+
+/// Keys that press, move or leave the control that has the focus.
+fn works_controls(key: Key) -> bool {
+    let arrows = matches!(key, Key::ArrowLeft | Key::ArrowRight | Key::ArrowUp | Key::ArrowDown);
+    arrows || matches!(key, Key::Space | Key::Enter | Key::Tab)
+}
+
+/// Whether a text field has no use for the keys: F1, and Ctrl with a letter that means nothing in text.
+fn is_not_for_text(key: Key, modifiers: Modifiers) -> bool {
+    let is_function = key.name().len() > 1 && key.name().starts_with('F');
+    is_function || (modifiers.command && matches!(key, Key::O | Key::P | Key::Q | Key::S))
 }
 
 /// While F is held the mouse, moved sideways, sizes the brush.

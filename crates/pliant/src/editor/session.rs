@@ -2,6 +2,7 @@
 //! does goes through here, and so can a test.
 
 mod compare;
+mod hints;
 mod method;
 mod views;
 
@@ -13,9 +14,7 @@ use pliant_meshfile::{OpenOptions, Welding};
 use pliant_solver::{Rigidity, VertexId};
 
 use super::jobs::{Jobs, Opened};
-use super::{
-    Job, JobEvent, Learning, Look, NoticeKind, Notices, Open, Sample, Shortcuts, Shown, Status, Trial, Welcome,
-};
+use super::{Habits, Job, JobEvent, Learning, Look, NoticeKind, Notices, Open, Sample, Shown, Status, Trial, Welcome};
 use crate::document::{Command, Document, GroupKind, Model, SelectMode, Snapshot};
 use crate::solving::{Measure, SolveReport, SolveRequest, Worker};
 use crate::tools::{Context, Input, Marks, Options, Tool, ToolKind, View};
@@ -35,8 +34,8 @@ pub struct Session {
     pub status: Status,
     /// Which vertices of the next file become one point.
     pub welding: Welding,
-    /// Keys of the actions.
-    pub shortcuts: Shortcuts,
+    /// What belongs to the person.
+    pub habits: Habits,
     /// Rigidity being learned from poses, while its panel is open.
     pub learning: Option<Learning>,
     /// Methods side by side, while that is open.
@@ -65,7 +64,7 @@ impl Session {
             notices: Notices::default(),
             status: Status::default(),
             welding: Welding::Exact,
-            shortcuts: Shortcuts::default(),
+            habits: Habits::default(),
             learning: None,
             compare: None,
             wake: wake.clone(),
@@ -132,7 +131,7 @@ impl Session {
         self.learning = None;
         self.compare = None;
         self.sent = None;
-        self.welcome = (sample == Some(Sample::Creature)).then(Welcome::default);
+        self.welcome_to(sample);
         self.open = Some(Open::new(opened, sample));
         self.synchronize();
     }
@@ -206,16 +205,6 @@ impl Session {
         if let Some(why) = self.status.take(report) {
             self.notices.push(NoticeKind::Error, format!("Cannot solve: {why}"));
         }
-    }
-
-    /// Hints for a newcomer, while they are wanted.
-    pub fn welcome(&self) -> Option<Welcome> {
-        self.welcome
-    }
-
-    /// No more hints.
-    pub fn dismiss_welcome(&mut self) {
-        self.welcome = None;
     }
 
     /// Carries out a command; a refusal becomes a notice.

@@ -90,6 +90,8 @@ fn dress(style: &mut Style, theme: Theme) {
     widgets.active.bg_fill = ACCENT.gamma_multiply(0.6);
     widgets.open.weak_bg_fill = colors.hovered;
     widgets.open.bg_fill = colors.hovered;
+    // What has the keyboard's focus is drawn as if pressed: it must be plain to see.
+    widgets.active.bg_stroke = Stroke::new(1.5, ACCENT);
     widgets.noninteractive.bg_stroke = Stroke::new(1.0, colors.line);
     widgets.noninteractive.fg_stroke = Stroke::new(1.0, colors.text);
     style.visuals = visuals;

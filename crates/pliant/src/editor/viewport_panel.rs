@@ -63,6 +63,8 @@ pub(super) struct ViewportPanel {
     shown: Option<ViewScene>,
     /// When something last moved, for pictures made by the processor.
     moved_at: std::time::Instant,
+    /// Its widget, once it was shown.
+    pub(super) id: Option<egui::Id>,
     /// Whether pictures are made by the processor.
     pub(super) is_software: bool,
     /// Time that the renderer took for the last picture, on this thread.
@@ -77,6 +79,7 @@ impl ViewportPanel {
             is_software: info.device_type == wgpu::DeviceType::Cpu,
             watch: watch_device(&render_state.device),
             has_told_of_loss: false,
+            id: None,
             render_state: render_state.clone(),
             moved_at: std::time::Instant::now(),
             drawing: std::time::Duration::ZERO,
@@ -109,6 +112,7 @@ impl ViewportPanel {
     pub(super) fn show(&mut self, ui: &mut egui::Ui, session: &mut Session) {
         let (rect, response) = ui.allocate_exact_size(ui.available_size(), egui::Sense::click_and_drag());
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "viewport"));
+        self.id = Some(response.id);
         if response.clicked() || response.drag_started() {
             response.request_focus(); // takes the keyboard away from text fields
         }

@@ -6,6 +6,7 @@
 mod brush;
 mod fill;
 mod gizmo;
+mod mouse;
 mod options;
 mod place;
 mod region;
@@ -14,6 +15,7 @@ mod surface;
 mod tool;
 
 pub use gizmo::{Gizmo, GizmoPart};
+pub use mouse::{Gesture, VIEW_GESTURES};
 pub use options::{BrushMode, Options, SelectShape};
 pub use surface::{Pick, Surface};
 pub use tool::{Context, Cursor, Input, Marks, Modifiers, Pointer, Reaction, Tool, ToolKey, View};

@@ -86,6 +86,23 @@ impl Action {
         self.entry.label
     }
 
+    /// Where it stands: menu, submenu and label.
+    pub fn full_name(self) -> String {
+        let menu = Action::MENUS.iter().find(|menu| menu.actions.contains(&self)).map_or("", |menu| menu.name);
+        match self.submenu() {
+            Some(submenu) => format!("{menu} › {submenu} › {}", self.label()),
+            None => format!("{menu} › {}", self.label()),
+        }
+    }
+
+    /// The label outside of its menu: with its submenu, if it stands in one.
+    pub fn long_label(self) -> String {
+        match self.submenu() {
+            Some(submenu) => format!("{submenu}: {}", self.label()),
+            None => self.label().to_owned(),
+        }
+    }
+
     /// The label as it reads now: 'Undo paint' rather than 'Undo'.
     pub fn title(self, session: &Session) -> String {
         self.entry.title.and_then(|title| title(session)).unwrap_or_else(|| self.label().to_owned())

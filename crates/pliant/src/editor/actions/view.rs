@@ -3,8 +3,8 @@
 use egui::Key;
 
 use super::actions;
-use super::entry::{ALT, Entry, NONE};
-use crate::editor::{ColorBy, Session};
+use super::entry::{ALT, CTRL, Entry, NONE};
+use crate::editor::{ColorBy, Habits, Session};
 use crate::viewport::{Axis, Projection, Shading, Theme};
 
 actions! {
@@ -87,10 +87,39 @@ actions! {
         .apart()
         .on(|session| session.compare().is_some())
         .does(Session::toggle_compare);
+    /// A larger window.
+    LARGER_UI = Entry::new("view.larger-ui", "Larger text and buttons", "Make everything but the picture larger, up to 250 %")
+        .key(CTRL, Key::Plus)
+        .key(CTRL, Key::Equals)
+        .anytime()
+        .within("Size of text and buttons")
+        .apart()
+        .unless(|session| {
+            let is_largest = session.habits.ui_scale >= *Habits::UI_SCALE.end();
+            is_largest.then_some("Everything is as large as it gets: 250 %")
+        })
+        .does(|session| session.habits.scale_up());
+    /// A smaller window.
+    SMALLER_UI =
+        Entry::new("view.smaller-ui", "Smaller text and buttons", "Make everything but the picture smaller, down to 75 %")
+            .key(CTRL, Key::Minus)
+            .anytime()
+            .within("Size of text and buttons")
+            .unless(|session| {
+                let is_smallest = session.habits.ui_scale <= *Habits::UI_SCALE.start();
+                is_smallest.then_some("Everything is as small as it gets: 75 %")
+            })
+            .does(|session| session.habits.scale_down());
+    /// As the platform has it.
+    NORMAL_UI = Entry::new("view.normal-ui", "Normal size", "Make text and buttons as large as the platform has them")
+        .key(CTRL, Key::Num0)
+        .anytime()
+        .within("Size of text and buttons")
+        .unless(|session| (session.habits.ui_scale == 1.0).then_some("Everything has its normal size"))
+        .does(|session| session.habits.ui_scale = 1.0);
     /// Dark or light.
     TOGGLE_THEME = Entry::new("view.light", "Light window", "Switch between the light and the dark window")
         .anytime()
-        .apart()
         .on(|session| session.look.theme == Theme::Light)
         .look(|look| look.theme = if look.theme == Theme::Dark { Theme::Light } else { Theme::Dark });
 }

@@ -1,9 +1,12 @@
-//! Dialogs in the window: open, save, the sheet of keys, and the question before unsaved changes are lost.
+//! Dialogs in the window: open, save, those of the menu Help, and the question before unsaved changes are lost.
 
 use std::path::PathBuf;
 
-use egui::{Grid, Id, Key, Modal, RichText, ScrollArea, TextEdit, Ui};
+use egui::{Id, Key, Modal, RichText, TextEdit, Ui};
 
+use super::help;
+use super::key_sheet::KeySheet;
+use super::palette::Palette;
 use crate::editor::{Action, Job, Sample, Session};
 
 /// The dialog on screen.
@@ -22,8 +25,14 @@ pub(in crate::editor) enum Dialog {
         /// What is typed.
         path: String,
     },
+    /// Any action by its name.
+    Palette(Palette),
     /// Keys and mouse.
-    Keys,
+    Keys(KeySheet),
+    /// What r means.
+    WhatIsRigidity,
+    /// Version and license.
+    About,
     /// Unsaved changes would be lost.
     Unsaved(Loss),
 }
@@ -54,6 +63,8 @@ pub(in crate::editor) enum DialogOutcome {
     Lose(Loss),
     /// Save first, then go on.
     SaveFirst(Loss),
+    /// Do this.
+    Do(Action),
     /// Nothing.
     Canceled,
 }
@@ -72,7 +83,10 @@ impl Dialog {
                 Dialog::None => {}
                 Dialog::Open { path } => outcome = open(ui, path, session, &mut close),
                 Dialog::Save { path } => outcome = save(ui, path, session, &mut close),
-                Dialog::Keys => keys(ui, session, &mut close),
+                Dialog::Palette(palette) => outcome = palette.show(ui, session).map(DialogOutcome::Do),
+                Dialog::Keys(sheet) => sheet.show(ui, session, &mut close),
+                Dialog::WhatIsRigidity => help::what_rigidity_is(ui, &mut close),
+                Dialog::About => help::about(ui, &mut close),
                 Dialog::Unsaved(loss) => outcome = unsaved(ui, loss, &mut close),
             }
         });
@@ -178,39 +192,53 @@ fn unsaved(ui: &mut Ui, loss: &Loss, close: &mut bool) -> Option<DialogOutcome> 
     outcome
 }
 
-fn keys(ui: &mut Ui, session: &Session, close: &mut bool) {
-    ui.heading("Keys and mouse");
-    ui.add_space(4.0);
-    let height = ui.ctx().content_rect().height() - 180.0;
-    ScrollArea::vertical().max_height(height).show(ui, |ui| {
-        Grid::new("keys").num_columns(2).spacing([24.0, 3.0]).striped(true).show(ui, |ui| {
-            for (what, how) in [
-                ("Left button", "the tool in hand"),
-                ("Middle or right drag, Alt + left drag", "turn the view"),
-                ("Shift + middle or right drag", "move the view"),
-                ("Wheel, pinch, Alt + right drag", "zoom toward the pointer"),
-                ("Shift while dragging a handle", "keep to an axis"),
-                ("Ctrl while turning with the gizmo", "steps of 15°"),
-                ("Ctrl / Shift while painting", "softer / smooth"),
-                ("Shift / Ctrl while selecting", "add / remove"),
-                ("Esc", "take back the drag or stroke under way"),
-                ("F held while moving the mouse", "brush radius"),
-                ("1 … 9, two digits typed quickly", "current rigidity"),
-            ] {
-                ui.label(RichText::new(what).strong());
-                ui.label(how);
-                ui.end_row();
-            }
-            for action in Action::all() {
-                let key = session.shortcuts.text(action, ui.ctx());
-                if !key.is_empty() {
-                    ui.label(RichText::new(key).strong());
-                    ui.label(action.label()).on_hover_text(action.tooltip());
-                    ui.end_row();
-                }
-            }
+#[cfg(test)]
+mod tests {
+    use egui::{Context, Event, Modifiers, RawInput};
+
+    use super::*;
+
+    /// One of each kind.
+    fn every_dialog() -> Vec<Dialog> {
+        // A new kind does not compile here, to be listed below.
+        match Dialog::None {
+            Dialog::None | Dialog::Open { .. } | Dialog::Save { .. } | Dialog::Palette(_) => {}
+            Dialog::Keys(_) | Dialog::WhatIsRigidity | Dialog::About | Dialog::Unsaved(_) => {}
+        }
+        let path = String::new();
+        vec![
+            Dialog::Open { path: path.clone() },
+            Dialog::Save { path },
+            Dialog::Palette(Palette::default()),
+            Dialog::Keys(KeySheet::default()),
+            Dialog::WhatIsRigidity,
+            Dialog::About,
+            Dialog::Unsaved(Loss::Close),
+        ]
+    }
+
+    fn frame(ctx: &Context, dialog: &mut Dialog, session: &mut Session, events: Vec<Event>) {
+        let input = RawInput { events, ..RawInput::default() };
+        let mut output = ctx.run_ui(input, |ui| {
+            dialog.show(ui.ctx(), session);
         });
-    });
-    ui.add_space(8.0);
-    *close |= ui.button("Close").clicked();
+        output.textures_delta.clear();
+    }
+
+    #[test]
+    fn every_dialog_closes_by_escape() {
+        let mut session = Session::new(|| {}).expect("a solver thread");
+        for mut dialog in every_dialog() {
+            let ctx = Context::default();
+            let was = dialog.clone();
+            for _ in 0..3 {
+                frame(&ctx, &mut dialog, &mut session, Vec::new());
+            }
+            assert_ne!(dialog, Dialog::None, "{was:?} closed by itself");
+            let (key, modifiers) = (Key::Escape, Modifiers::NONE);
+            let press = Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers };
+            frame(&ctx, &mut dialog, &mut session, vec![press]);
+            assert_eq!(dialog, Dialog::None, "{was:?} stays in spite of Esc");
+        }
+    }
 }

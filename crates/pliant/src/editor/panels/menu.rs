@@ -44,7 +44,7 @@ fn item(ui: &mut Ui, session: &Session, action: Action, chosen: &mut Option<Acti
         Some(is_on) => egui::Button::selectable(is_on, title),
         None => egui::Button::new(title),
     };
-    let key = session.shortcuts.text(action, ui.ctx());
+    let key = session.habits.shortcuts.text(action, ui.ctx());
     if !key.is_empty() {
         button = button.shortcut_text(key);
     }

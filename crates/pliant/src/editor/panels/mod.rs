@@ -1,14 +1,17 @@
 //! The parts of the window around the viewport. Each is a function of the session.
 
 mod dialogs;
+mod help;
 mod icons;
 mod inspector;
+mod key_sheet;
 mod learn;
 mod legend;
 mod menu;
 mod mesh_section;
 mod notices;
 mod paint;
+mod palette;
 mod rail;
 mod sections;
 mod solver;
@@ -19,10 +22,12 @@ mod weld;
 
 pub(super) use dialogs::{Dialog, DialogOutcome, Loss};
 pub(super) use inspector::inspector;
+pub(super) use key_sheet::KeySheet;
 pub(super) use learn::learn;
 pub(super) use legend::legend;
 pub(super) use menu::menu;
 pub(super) use notices::notices;
+pub(super) use palette::Palette;
 pub(super) use rail::rail;
 pub(super) use status::status;
 pub(super) use welcome::welcome;
@@ -32,9 +37,14 @@ use egui::{Response, Ui};
 
 use super::Session;
 
+/// Names a control for those who hear the window rather than see it.
+fn name(ui: &Ui, response: &Response, name: &str) {
+    ui.ctx().accesskit_node_builder(response.id, |node| node.set_label(name));
+}
+
 /// The tooltip of an action, with its key if it has one.
 fn tip(ui: &Ui, session: &Session, action: Action) -> String {
-    match session.shortcuts.text(action, ui.ctx()) {
+    match session.habits.shortcuts.text(action, ui.ctx()) {
         key if key.is_empty() => action.tooltip().to_owned(),
         key => format!("{} ({key})", action.tooltip()),
     }

@@ -14,7 +14,8 @@ pub(in crate::editor) fn rail(ui: &mut Ui, session: &mut Session) {
     ui.vertical_centered(|ui| {
         ui.add_space(4.0);
         for kind in ToolKind::ALL {
-            let key = Action::of_tool(kind).map(|action| session.shortcuts.text(action, ui.ctx())).unwrap_or_default();
+            let key =
+                Action::of_tool(kind).map(|action| session.habits.shortcuts.text(action, ui.ctx())).unwrap_or_default();
             if button(ui, kind, &key, session.tool_kind() == kind).clicked() {
                 session.take_tool(kind);
             }

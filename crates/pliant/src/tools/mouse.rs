@@ -1,0 +1,44 @@
+//! What the mouse does, for the sheet of keys: of each tool, and of the view whichever tool is in hand.
+
+use super::ToolKind;
+
+/// A gesture and what it does.
+pub type Gesture = (&'static str, &'static str);
+
+/// With every tool.
+pub const VIEW_GESTURES: &[Gesture] = &[
+    ("Middle or right drag, Alt + left drag", "turn the view"),
+    ("Shift + middle or right drag, Alt + middle drag", "move the view"),
+    ("Wheel, pinch, Alt + right drag", "zoom toward the pointer"),
+    ("F held while moving the mouse", "radius of the brush"),
+    ("1 … 9, two digits typed quickly", "current rigidity"),
+    ("Esc", "take back the drag or stroke under way; close a dialog"),
+];
+
+impl ToolKind {
+    /// What the left button does with this tool in hand.
+    pub const fn gestures(self) -> &'static [Gesture] {
+        match self {
+            ToolKind::Handle => &[
+                ("Click the surface", "a handle there"),
+                ("Drag a handle", "bend the surface"),
+                ("Shift while dragging", "keep to an axis"),
+                ("Drag an arrow, ring or square of the gizmo", "move, turn or scale"),
+                ("Ctrl while turning with the gizmo", "steps of 15°"),
+            ],
+            ToolKind::Anchor => &[("Click the surface", "hold it where it is"), ("Click an anchor", "choose it")],
+            ToolKind::Select => &[
+                ("Drag", "select what is inside of the box or lasso"),
+                ("Shift while selecting", "add"),
+                ("Ctrl while selecting", "remove"),
+                ("Click", "select a patch"),
+            ],
+            ToolKind::Brush => &[
+                ("Drag over the surface", "paint the current rigidity"),
+                ("Ctrl while painting", "softer"),
+                ("Shift while painting", "smooth"),
+            ],
+            ToolKind::Fill => &[("Click the surface", "fill the selection, or the region of equal rigidity")],
+        }
+    }
+}
