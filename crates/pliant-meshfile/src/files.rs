@@ -36,8 +36,7 @@ pub(crate) fn read_in_stages(path: &Path, limit: u64, stage: Stage<'_>) -> Resul
 /// Reads a file that a model names, if it lies in the model's own folder; otherwise says why not.
 ///
 /// `reference` is a plain relative path with forward slashes. Links are followed, and refused when they lead outside.
-pub(crate) fn read_beside(folder: Option<&Path>, reference: &str, limit: u64) -> Result<Vec<u8>, String> {
-    let folder = folder.ok_or("no folder to look in")?;
+pub(crate) fn read_beside(folder: &Path, reference: &str, limit: u64) -> Result<Vec<u8>, String> {
     let foreign = reference.is_empty()
         || reference.starts_with('/')
         || reference.contains(['\\', ':', '\0'])

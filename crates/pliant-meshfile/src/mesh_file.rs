@@ -2,6 +2,7 @@
 
 use crate::formats::{Before, Edit, Motion, Opened, Output, Source, entry};
 use crate::generated::Generated;
+use crate::pack::Original;
 use crate::saving::{self, Known, SaveOptions};
 use crate::shape::{NO_MATERIAL, Part};
 use crate::watch::Stage;
@@ -39,6 +40,7 @@ pub struct MeshFile {
     pub warnings: Vec<Warning>,
     source: Arc<dyn Source>,
     pub(crate) known: Known,
+    pub(crate) original: Option<Arc<Original>>,
 }
 
 /// A move this small, in extents of the mesh, is rounding in what computed it: a solver that leaves a surface as it is
@@ -126,6 +128,7 @@ impl MeshFile {
             warnings: opened.warnings,
             source: opened.source,
             known: Known::default(),
+            original: None,
         }
     }
 
@@ -215,7 +218,30 @@ impl MeshFile {
         }
         let known = options.backup.then_some(&self.known);
         output.warnings.extend(saving::write(to, &output.bytes, &beside, known)?);
+        output.warnings.extend(self.unpack(to));
         Ok(output.warnings)
+    }
+
+    /// Puts what a packed file refers to beside the saved one, where nothing has these names yet.
+    fn unpack(&self, to: &Path) -> Vec<Warning> {
+        let mut warnings = Vec::new();
+        for (name, bytes) in self.source.unpacked(to) {
+            // Names out of the folder were refused when the pack was made, and are refused of packs made otherwise.
+            let path = files::folder_of(to).join(&name);
+            let is_plain = Path::new(&name).components().all(|part| matches!(part, std::path::Component::Normal(_)));
+            if !is_plain || files::is_taken(&path) {
+                let shown = rigidity::quoted(&name);
+                warnings.push(Warning(format!("{shown} beside the saved file is not the one from the project")));
+            } else if let Err(error) = saving::replace_file(&path, |file| file.write_all(&bytes)) {
+                warnings.push(Warning(error.to_string()));
+            }
+        }
+        warnings
+    }
+
+    /// What the file refers to and was not read on opening.
+    pub(crate) fn references(&self) -> Vec<String> {
+        self.source.references()
     }
 
     /// The sidecar that belongs beside `to`, if any does. `origin` as in [`Output`].

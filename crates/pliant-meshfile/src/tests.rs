@@ -12,6 +12,7 @@ mod obj_details;
 mod obj_reading;
 mod obj_saving;
 mod off;
+mod packs;
 mod ply;
 mod poses;
 mod stl;

@@ -1,5 +1,7 @@
 //! The whole window on the software adapter: real events in, state and pixels out.
 
+mod projects;
+
 use std::time::{Duration, Instant};
 
 use egui_kittest::Harness;
@@ -107,7 +109,7 @@ pub(crate) fn press(window: &mut Window, key: egui::Key) {
 }
 
 #[test]
-fn two_patches_a_drag_paint_fill_undo_save_and_reopen_in_the_window() {
+fn two_patches_a_drag_paint_fill_undo_export_and_reopen_in_the_window() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let mut window = window(folder.path());
     let start = document(window.state_mut().session()).snapshot();
@@ -143,10 +145,10 @@ fn two_patches_a_drag_paint_fill_undo_save_and_reopen_in_the_window() {
     assert_eq!(document(window.state_mut().session()).scene().rigidity.min(), 2);
     settle(&mut window);
 
-    // Saving by the dialog's path field.
+    // Exporting by the dialog's path field.
     let saved = document(window.state_mut().session()).snapshot();
     let target = folder.path().join("bent.glb");
-    window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::S);
+    window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::E);
     window.run_steps(3);
     window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
     window.event(egui::Event::Text(target.display().to_string()));

@@ -1,5 +1,6 @@
 //! The words between a format and the rest of the crate.
 
+use crate::folder::Folder;
 use crate::saving::Unfinished;
 use crate::shape::{Part, Shape};
 use crate::watch::Stage;
@@ -14,7 +15,7 @@ use std::sync::Arc;
 pub(crate) struct Input<'a> {
     pub(crate) bytes: Vec<u8>,
     /// Where references may be followed; nowhere for files from memory.
-    pub(crate) folder: Option<&'a Path>,
+    pub(crate) folder: Option<&'a Folder>,
     /// Files beside the model that an interrupted saving left under other names.
     pub(crate) unfinished: Option<&'a Unfinished>,
     /// Name of the model, for parts that have none.
@@ -52,6 +53,16 @@ pub(crate) trait Source: Debug + Send + Sync {
     /// What keeps vertices apart that are at one place; none in formats without skins.
     fn bindings(&self) -> Option<Box<dyn Bindings + '_>> {
         None
+    }
+
+    /// What the file refers to and was not read on opening: paths relative to its folder.
+    fn references(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// Files by the references to them that a file saved as `to` needs beside it, where this source has them in a pack.
+    fn unpacked(&self, _to: &Path) -> Vec<(String, Vec<u8>)> {
+        Vec::new()
     }
 
     /// How many poses [`Source::motion`] gives at most, told without reading them.

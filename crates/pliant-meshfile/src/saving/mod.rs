@@ -31,6 +31,7 @@ pub(crate) use unfinished::Unfinished;
 use crate::{SaveError, Warning, files};
 use staged::{Group, Staged};
 use std::fs::File;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// How a file is saved.
@@ -94,6 +95,17 @@ pub(crate) fn write(
         known.remember(&target, kept == Ok(true));
     }
     Ok(kept.err().into_iter().collect())
+}
+
+/// Writes a file of any kind so that `to` is the old one or the new one, whole, wherever the program or the machine stops.
+///
+/// `content` is called once with the new file. A link is saved through.
+pub fn replace_file(to: &Path, content: impl FnOnce(&mut dyn Write) -> std::io::Result<()>) -> Result<(), SaveError> {
+    let failed = |source| SaveError::Write { path: to.to_owned(), source };
+    let target = to.canonicalize().unwrap_or_else(|_| to.to_owned());
+    stale::clear(files::folder_of(&target));
+    let mut staged = Staged::filled(target, &Group::new(), 0, content).map_err(failed)?;
+    staged.publish().map_err(failed)
 }
 
 /// Makes the names in a folder durable; a system that cannot bring folders to the disk does so itself.

@@ -3,9 +3,12 @@
 use super::sync_folder;
 use crate::files;
 use std::fs::{self, File};
-use std::io::{Error, ErrorKind, Write};
+use std::io::{BufWriter, Error, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
+
+/// Bytes gathered before they go to the system: larger writes go there at once, smaller ones cost a call each.
+const PIECE: usize = 1 << 16;
 
 /// What the temporaries of one saving share in their names: the process, and a number within it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -56,6 +59,16 @@ pub(super) struct Staged {
 
 impl Staged {
     pub(super) fn new(target: PathBuf, bytes: &[u8], group: &Group, index: usize) -> std::io::Result<Staged> {
+        Staged::filled(target, group, index, |file| file.write_all(bytes))
+    }
+
+    /// A temporary with what `content` writes.
+    pub(super) fn filled(
+        target: PathBuf,
+        group: &Group,
+        index: usize,
+        content: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
+    ) -> std::io::Result<Staged> {
         let permissions = match fs::symlink_metadata(&target) {
             Ok(old) if old.is_symlink() => None,
             Ok(old) if !old.is_file() => return Err(Error::other("the target is not a regular file")),
@@ -69,8 +82,11 @@ impl Staged {
             return Err(Error::other("the target has no file name"));
         }
         let temporary = files::folder_of(&target).join(group.temporary(index));
-        let mut staged = Staged { file: create_locked(&temporary)?, temporary, target, stays: false };
-        staged.file.write_all(bytes)?;
+        let staged = Staged { file: create_locked(&temporary)?, temporary, target, stays: false };
+        let mut buffered = BufWriter::with_capacity(PIECE, &staged.file);
+        content(&mut buffered)?;
+        buffered.flush()?;
+        drop(buffered);
         if let Some(permissions) = permissions {
             staged.file.set_permissions(permissions)?;
         }

@@ -8,7 +8,7 @@ use serde_json::json;
 use std::ops::ControlFlow;
 
 fn opened(text: &str, welding: Welding) -> MeshFile {
-    let options = OpenOptions { welding };
+    let options = OpenOptions { welding, ..OpenOptions::default() };
     options.from_bytes(text.as_bytes(), Format::Obj, "test.obj").unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -69,7 +69,11 @@ fn a_distance_closes_gaps_and_says_what_it_did() {
     assert_eq!(file.weld.point_of_vertex, [0, 1, 2, 0, 2, 3]);
     let said: Vec<String> = file.warnings.iter().map(ToString::to_string).collect();
     assert_eq!(said, ["2 vertices were welded to others within 0.01 (farthest: 0.01)"]);
-    let error = OpenOptions { welding: Welding::Within(3.0) }.from_bytes(GAP.as_bytes(), Format::Obj, "gap.obj");
+    let error = OpenOptions { welding: Welding::Within(3.0), ..OpenOptions::default() }.from_bytes(
+        GAP.as_bytes(),
+        Format::Obj,
+        "gap.obj",
+    );
     let error = error.expect_err("all is one point").to_string();
     assert!(error.starts_with("gap.obj: welding within 3 leaves no surface"), "{error}");
 }

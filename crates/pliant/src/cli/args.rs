@@ -22,7 +22,7 @@ Exit codes: 0 done, 1 refused or failed (one line says why; nothing is written),
 #[command(name = "pliant", bin_name = "pliant", version, after_help = EDITOR_EXAMPLES)]
 #[command(override_usage = "pliant [--quiet] [FILE]...\n       pliant [--quiet] <COMMAND> ...")]
 pub(super) struct Arguments {
-    /// Files to open in the editor (OBJ, glTF, GLB, PLY, STL, OFF); a sample when none is given
+    /// Files to open in the editor (OBJ, glTF, GLB, PLY, STL, OFF, or a .pliant project); a sample when none is given
     #[arg(value_name = "FILE")]
     pub(super) files: Vec<PathBuf>,
 

@@ -15,7 +15,7 @@ pub(super) fn read(path: &Path, welding: Welding, console: &mut Console<'_>) -> 
         console.progress(|| format!("reading {}: {:.0} %", path.display(), (100.0 * fraction).floor()));
         ControlFlow::Continue(())
     };
-    Ok(OpenOptions { welding }.open_with_progress(path, &mut progress)?)
+    Ok(OpenOptions { welding, ..OpenOptions::default() }.open_with_progress(path, &mut progress)?)
 }
 
 /// Opens the mesh file at `path`, welded as is wished.

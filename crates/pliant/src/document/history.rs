@@ -1,5 +1,7 @@
 //! Undo and redo: whole snapshots, which share what did not change, capped by bytes.
 
+use std::ops::RangeInclusive;
+
 use super::{Pose, Scene};
 
 /// What undo brings back: the scene and the pose it had.
@@ -28,6 +30,8 @@ pub struct History {
 
 /// Oldest steps are forgotten beyond this. By eye: 800 whole poses of a 12k mesh, 10 of a million vertices.
 const BUDGET_BYTES: usize = 256 << 20;
+/// What a person may choose instead: enough for a few steps of small meshes, and what machines of today can spare.
+const BUDGETS: RangeInclusive<usize> = 64 << 20..=4 << 30;
 
 impl Default for History {
     fn default() -> History {
@@ -41,13 +45,68 @@ impl History {
         self.redo.clear();
         let bytes = self.cost(&before);
         self.undo.push(Step { name, snapshot: before, bytes });
-        let mut total: usize = self.undo.iter().map(|step| step.bytes).sum();
+        self.forget();
+    }
+
+    /// Drops the oldest steps beyond the budget, but never the newest.
+    fn forget(&mut self) {
+        let mut total = self.bytes();
         let mut forgotten = 0;
         while total > self.budget_bytes && forgotten + 1 < self.undo.len() {
             total -= self.undo[forgotten].bytes;
             forgotten += 1;
         }
         self.undo.drain(..forgotten);
+    }
+
+    /// Smallest and largest budget, in bytes.
+    pub const BUDGETS: RangeInclusive<usize> = BUDGETS;
+
+    /// Bytes beyond which the oldest steps are forgotten.
+    pub fn budget(&self) -> usize {
+        self.budget_bytes
+    }
+
+    /// Changes the budget, kept within [`History::BUDGETS`]; steps beyond it are forgotten at once.
+    pub fn set_budget(&mut self, bytes: usize) {
+        self.budget_bytes = bytes.clamp(*BUDGETS.start(), *BUDGETS.end());
+        self.forget();
+    }
+
+    /// Bytes that all steps take, about.
+    pub fn bytes(&self) -> usize {
+        self.undo.iter().chain(&self.redo).map(|step| step.bytes).sum()
+    }
+
+    /// Names of all steps, oldest first: first those that can be taken back, [`History::len`] of them, then those that can be
+    /// made again.
+    pub fn names(&self) -> impl ExactSizeIterator<Item = &'static str> + '_ {
+        let all = self.undo.len() + self.redo.len();
+        (0..all).map(|step| self.name(step))
+    }
+
+    /// Name of a step, counted from the oldest, which must exist.
+    pub fn name(&self, step: usize) -> &'static str {
+        match self.undo.get(step) {
+            Some(step) => step.name,
+            // The next one to be made again lies on top.
+            None => self.redo[self.redo.len() - 1 - (step - self.undo.len())].name,
+        }
+    }
+
+    /// The state after the first `n` steps, or after all if there are fewer; `now` and what lies between is kept for the way
+    /// back. Nothing if that is now.
+    pub fn jump(&mut self, n: usize, now: Snapshot) -> Option<Snapshot> {
+        let mut state = None;
+        while self.undo.len() > n {
+            let from = state.take().unwrap_or_else(|| now.clone());
+            state = self.undo(from).map(|(_, before)| before);
+        }
+        while self.undo.len() < n && !self.redo.is_empty() {
+            let from = state.take().unwrap_or_else(|| now.clone());
+            state = self.redo(from).map(|(_, after)| after);
+        }
+        state
     }
 
     /// Takes the state to go back to, keeping `now` for redo.

@@ -106,6 +106,14 @@ impl Scene {
             && (Arc::ptr_eq(&self.groups, &other.groups) || self.groups.iter().zip(&*other.groups).all(same_group))
     }
 
+    /// Whether nothing is lost when one of them takes the place of the other: selections and what is active count little.
+    pub(super) fn is_alike(&self, other: &Scene) -> bool {
+        let mut same = other.clone();
+        same.selection = self.selection.clone();
+        same.active = self.active.clone();
+        *self == same
+    }
+
     /// Approximate size of what this scene does not share with `other`, in bytes.
     pub(super) fn bytes_beyond(&self, other: &Scene) -> usize {
         let mut bytes = size_of::<Scene>();

@@ -14,6 +14,9 @@ pub struct Pose {
     pub positions: Arc<[DVec3]>,
 }
 
+/// Iterations that go on move a surface that was nearly settled by less, in diagonals of it (by eye).
+const DRIFT: f64 = 1e-2;
+
 /// What is being edited.
 ///
 /// Two counters order the talk with the solver. The *revision* goes up with everything that matters to it; the *epoch*
@@ -28,7 +31,10 @@ pub struct Document {
     next_group: u32,
     revision: u64,
     epoch: u64,
-    saved: Snapshot,
+    /// What is on disk; nothing when this was recovered and is nowhere yet.
+    saved: Option<Snapshot>,
+    /// Whether the surface has jumped elsewhere than it was saved; known only while the scene is as it was saved.
+    is_elsewhere: bool,
 }
 
 impl Document {
@@ -44,9 +50,17 @@ impl Document {
             next_group: 1,
             revision: 0,
             epoch: 0,
-            saved: Snapshot { scene, pose },
+            saved: Some(Snapshot { scene, pose }),
+            is_elsewhere: false,
             model,
         }
+    }
+
+    /// A document that was saved and is opened again. `snapshot` must fit the model: as many numbers as it has points.
+    pub fn reopened(model: Arc<Model>, snapshot: Snapshot, next_group: u32) -> Document {
+        let fresh = Document::new(model);
+        let Snapshot { scene, pose } = snapshot.clone();
+        Document { scene, pose, next_group, saved: Some(snapshot), ..fresh }
     }
 
     /// The opened mesh.
@@ -74,15 +88,32 @@ impl Document {
         self.open_step.is_some()
     }
 
-    /// Whether a save now would write something that the last one did not.
+    /// Whether something would be lost that a save now would write: anything but the selection and which handle is active.
     pub fn is_modified(&self) -> bool {
-        !Arc::ptr_eq(&self.saved.pose.positions, &self.pose.positions) && self.saved.pose != self.pose
-            || self.saved.scene.rigidity != self.scene.rigidity
+        let Some(saved) = &self.saved else { return true };
+        self.is_elsewhere || !saved.scene.is_alike(&self.scene)
     }
 
-    /// Notes that the current state is on disk.
+    /// Notes what is on disk.
     pub fn mark_saved(&mut self, saved: Snapshot) {
-        self.saved = saved;
+        self.saved = Some(saved);
+        self.compare_pose();
+    }
+
+    /// Notes that nothing of this is on disk.
+    pub fn mark_unsaved(&mut self) {
+        self.saved = None;
+    }
+
+    /// Finds out whether the surface has jumped since it was saved, as a reset pose does. That iterations go on does not count:
+    /// they go on from a project that is opened again, too.
+    fn compare_pose(&mut self) {
+        let Some(saved) = &self.saved else { return };
+        let (then, now) = (&saved.pose.positions, &self.pose.positions);
+        let limit = DRIFT * f64::from(self.model.diagonal());
+        self.is_elsewhere = !Arc::ptr_eq(then, now)
+            && saved.scene.is_alike(&self.scene)
+            && then.iter().zip(now.iter()).any(|(a, b)| a.distance(*b) > limit);
     }
 
     /// The current state, cheap.
@@ -170,16 +201,31 @@ impl Document {
         self.jump_to(snapshot.pose);
     }
 
+    /// Goes to the state after the first `n` steps of the history; an open step is canceled first. Whether anything changed.
+    pub fn jump(&mut self, n: usize) -> bool {
+        self.cancel();
+        let state = self.history.jump(n, self.snapshot());
+        let changed = state.is_some();
+        state.into_iter().for_each(|state| self.restore(state));
+        changed
+    }
+
+    /// Changes how many bytes the history may take.
+    pub fn set_history_budget(&mut self, bytes: usize) {
+        self.history.set_budget(bytes);
+    }
+
     fn jump_to(&mut self, pose: Pose) {
         self.epoch += 1;
         self.revision += 1;
         self.pose = pose;
+        self.compare_pose();
     }
 
     /// Makes the current state the one that undo ends at.
     pub fn forget_history(&mut self) {
         self.history = History::default();
-        self.saved = self.snapshot();
+        self.mark_saved(self.snapshot());
     }
 
     /// The id that the next placed group will have.

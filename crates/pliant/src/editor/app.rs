@@ -1,15 +1,17 @@
 //! The window: eframe's side of the editor.
 
-use std::path::PathBuf;
+mod files;
+
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use egui::{CentralPanel, Frame, Margin, Panel};
 
 use super::compare_view::CompareView;
 use super::keyboard::Keyboard;
-use super::panels::{self, Dialog, DialogOutcome, Loss};
+use super::panels::{self, Dialog, Loss};
 use super::viewport_panel::ViewportPanel;
-use super::{Habits, Job, JobEvent, NoticeKind, Opened, Sample, Session, theme};
+use super::{Habits, Job, NoticeKind, Opened, Sample, Session, theme};
 
 /// Why the window could not be shown.
 #[derive(Debug, thiserror::Error)]
@@ -52,12 +54,25 @@ pub struct FrameWork {
 }
 
 impl EditorApp {
-    /// Builds the application inside eframe. Opens the first of `files`, or the start sample.
+    /// Builds the application inside eframe. Opens the first of `files`, or the start sample. Nothing lasts beyond the
+    /// window.
     pub fn new(cc: &eframe::CreationContext<'_>, files: Vec<PathBuf>) -> Result<EditorApp, EditorError> {
+        EditorApp::remembering(cc, files, None)
+    }
+
+    /// The same with a folder for what lasts: settings, recent files, autosaves.
+    pub fn remembering(
+        cc: &eframe::CreationContext<'_>,
+        files: Vec<PathBuf>,
+        data: Option<&Path>,
+    ) -> Result<EditorApp, EditorError> {
         let render_state = cc.wgpu_render_state.as_ref().ok_or(EditorError::NoAdapter)?;
         let ctx = cc.egui_ctx.clone();
         let mut session = Session::new(move || ctx.request_repaint())?;
         session.habits = cc.storage.map(stored_habits).unwrap_or_default();
+        if let Some(data) = data {
+            session.remember_in(data);
+        }
         theme::apply(&cc.egui_ctx, session.look.theme);
         // Ours are actions in the table, with bounds of their own.
         cc.egui_ctx.options_mut(|options| options.zoom_with_keyboard = false);
@@ -93,17 +108,6 @@ impl EditorApp {
         self.last_frame
     }
 
-    pub(super) fn ask_what_to_open(&mut self, _ctx: &egui::Context) {
-        self.dialog = Dialog::Open { path: String::new() };
-    }
-
-    pub(super) fn reopen(&mut self, ctx: &egui::Context) {
-        let path = self.session.document().and_then(|document| document.model().file.path.clone());
-        if let Some(path) = path {
-            self.lose(Loss::Open(path), ctx);
-        }
-    }
-
     pub(super) fn show_keys(&mut self, _ctx: &egui::Context) {
         self.dialog = Dialog::Keys(panels::KeySheet::default());
     }
@@ -118,99 +122,6 @@ impl EditorApp {
 
     pub(super) fn show_about(&mut self, _ctx: &egui::Context) {
         self.dialog = Dialog::About;
-    }
-
-    pub(super) fn save(&mut self) {
-        match self.session.open().and_then(|open| open.save_path.clone()) {
-            Some(path) => self.save_to(path),
-            None => self.ask_where_to_save(),
-        }
-    }
-
-    pub(super) fn ask_where_to_save(&mut self) {
-        let Some(open) = self.session.open() else {
-            return;
-        };
-        let proposed = open.save_path.clone().unwrap_or_else(|| {
-            let model = open.document.model();
-            let extension = model
-                .file
-                .path
-                .as_deref()
-                .and_then(|path| path.extension())
-                .map_or_else(|| "glb".into(), |extension| extension.to_string_lossy().to_lowercase());
-            let name = format!("{}-bent.{extension}", model.name);
-            match model.file.path.as_deref().and_then(|path| path.parent()) {
-                Some(folder) => folder.join(name),
-                None => PathBuf::from(name),
-            }
-        });
-        self.dialog = Dialog::Save { path: proposed.display().to_string() };
-    }
-
-    fn save_to(&mut self, to: PathBuf) {
-        if let Some(document) = self.session.document() {
-            let job = Job::Save { model: document.model().clone(), snapshot: document.snapshot(), to };
-            self.session.start(job);
-        }
-    }
-
-    /// Does what would lose unsaved changes, or asks first.
-    pub(super) fn lose(&mut self, loss: Loss, ctx: &egui::Context) {
-        if self.session.document().is_some_and(|document| document.is_modified()) {
-            self.dialog = Dialog::Unsaved(loss);
-        } else {
-            self.proceed(loss, ctx);
-        }
-    }
-
-    fn proceed(&mut self, loss: Loss, ctx: &egui::Context) {
-        match loss {
-            Loss::Open(path) => self.session.start(Job::Open(path)),
-            Loss::OpenSample(sample) => self.session.start(Job::OpenSample(sample)),
-            Loss::Show => {
-                if let Some((opened, sample)) = self.opened_meanwhile.take() {
-                    self.session.notices.clear();
-                    self.session.show(*opened, sample);
-                }
-            }
-            Loss::Close => {
-                self.may_close = true;
-                ctx.send_viewport_cmd(egui::ViewportCommand::Close);
-            }
-        }
-    }
-
-    fn after_dialog(&mut self, outcome: DialogOutcome, ctx: &egui::Context) {
-        match outcome {
-            DialogOutcome::Open(path) => self.lose(Loss::Open(path), ctx),
-            DialogOutcome::OpenSample(sample) => self.lose(Loss::OpenSample(sample), ctx),
-            DialogOutcome::Save(path) => self.save_to(path),
-            DialogOutcome::Do(action) => action.perform(self, ctx),
-            DialogOutcome::Lose(loss) => self.proceed(loss, ctx),
-            DialogOutcome::SaveFirst(loss) => {
-                self.after_save = Some(loss);
-                self.save();
-            }
-            DialogOutcome::Canceled => {
-                self.after_save = None;
-                self.opened_meanwhile = None;
-            }
-        }
-    }
-
-    fn name_window(&mut self, ctx: &egui::Context) {
-        let title = match self.session.document() {
-            Some(document) => {
-                let mark = if document.is_modified() { "• " } else { "" };
-                format!("{mark}{} – Pliant", document.model().name)
-            }
-            None => "Pliant".into(),
-        };
-        if title != self.title {
-            ctx.send_viewport_cmd(egui::ViewportCommand::Title(title.clone()));
-            self.title = title;
-        }
     }
 }
 
@@ -229,50 +140,9 @@ impl eframe::App for EditorApp {
     }
 
     fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
-        for event in self.session.poll() {
-            match (event, &mut self.dialog) {
-                (JobEvent::ChosenToOpen(path), _) => {
-                    self.dialog = Dialog::None;
-                    self.lose(Loss::Open(path), ctx);
-                }
-                (JobEvent::ChosenPoses(model, paths), _) => {
-                    if let Some(learning) = self.session.learning.as_mut().filter(|panel| panel.is_about(&model)) {
-                        learning.add_files(paths);
-                    }
-                }
-                (JobEvent::ChosenToSave(chosen), Dialog::Save { path }) => *path = chosen.display().to_string(),
-                (JobEvent::ChosenToSave(path), _) => self.save_to(path),
-                (JobEvent::Opened { opened, sample }, dialog) => {
-                    self.opened_meanwhile = Some((opened, sample));
-                    *dialog = Dialog::Unsaved(Loss::Show);
-                }
-                (JobEvent::Saved { .. }, _) => {
-                    if let Some(loss) = self.after_save.take() {
-                        self.proceed(loss, ctx);
-                    }
-                }
-                (JobEvent::Failed { .. }, _) => self.after_save = None,
-                _ => {}
-            }
-        }
-        let dropped: Vec<PathBuf> =
-            ctx.input(|input| input.raw.dropped_files.iter().map(|file| file.path().to_owned()).collect());
-        if let Some(learning) = &mut self.session.learning
-            && !dropped.is_empty()
-        {
-            learning.add_files(dropped);
-        } else if let Some(path) = dropped.into_iter().next() {
-            self.lose(Loss::Open(path), ctx);
-        }
-        if ctx.input(|input| input.viewport().close_requested()) && !self.may_close {
-            if self.session.is_saving() {
-                ctx.send_viewport_cmd(egui::ViewportCommand::CancelClose);
-                self.after_save = Some(Loss::Close);
-            } else if self.session.document().is_some_and(|document| document.is_modified()) {
-                ctx.send_viewport_cmd(egui::ViewportCommand::CancelClose);
-                self.dialog = Dialog::Unsaved(Loss::Close);
-            }
-        }
+        self.take_events(ctx);
+        self.take_dropped(ctx);
+        self.take_close(ctx);
         self.name_window(ctx);
         ctx.set_zoom_factor(self.session.habits.ui_scale());
     }
@@ -281,7 +151,8 @@ impl eframe::App for EditorApp {
         let begun = Instant::now();
         let ctx = ui.ctx().clone();
         let mut chosen = Vec::new();
-        if self.dialog == Dialog::None && !self.compare.is_asking() {
+        let is_asking = self.compare.is_asking() || !self.session.recovery.is_empty();
+        if self.dialog == Dialog::None && !is_asking {
             chosen.extend(self.keyboard.take(&ctx, &mut self.session, self.viewport.id));
         }
         let theme_before = self.session.look.theme;
@@ -314,8 +185,16 @@ impl eframe::App for EditorApp {
         }
         if let Some(outcome) = self.dialog.show(&ctx, &mut self.session) {
             self.after_dialog(outcome, &ctx);
+        } else if self.dialog == Dialog::None
+            && let Some(file) = panels::recovery(&ctx, &mut self.session)
+        {
+            self.lose(Loss::Recover(file), &ctx);
         }
         self.last_frame = FrameWork { ui: begun.elapsed(), drawing: self.viewport.drawing };
+    }
+
+    fn on_exit(&mut self) {
+        self.session.end();
     }
 }
 
@@ -329,8 +208,9 @@ pub fn run(files: Vec<PathBuf>) -> Result<(), EditorError> {
             .with_min_inner_size([720.0, 480.0]),
         ..Default::default()
     };
-    eframe::run_native("pliant", options, Box::new(|cc| Ok(Box::new(EditorApp::new(cc, files)?))))
-        .map_err(why_no_window)
+    let data = eframe::storage_dir("pliant");
+    let create = |cc: &eframe::CreationContext<'_>| EditorApp::remembering(cc, files, data.as_deref());
+    eframe::run_native("pliant", options, Box::new(|cc| Ok(Box::new(create(cc)?)))).map_err(why_no_window)
 }
 
 fn why_no_window(error: eframe::Error) -> EditorError {

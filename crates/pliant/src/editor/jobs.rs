@@ -1,16 +1,17 @@
 //! Work that takes longer than a frame, each piece on a thread of its own.
 
 use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
 use pliant_geometry::VertexNormals;
 use pliant_meshfile::OpenOptions;
 
-use super::Sample;
 use super::opening::Opening;
+use super::{Leftover, Origin, ProjectFile, Restored, Sample, leftovers};
 use crate::document::{Model, ModelError, Snapshot};
+use crate::project::{self, Contents, EXTENSION, MeshChoice, ProjectError};
 use crate::tools::Surface;
 use crate::viewport::SurfaceFrame;
 
@@ -20,8 +21,26 @@ pub enum Job {
     Open(PathBuf),
     /// Reads a mesh of the program's own.
     OpenSample(Sample),
-    /// Writes the deformed mesh.
+    /// Reads a project whose mesh was chosen, or an autosave.
+    OpenProject {
+        /// The project.
+        path: PathBuf,
+        /// Its mesh.
+        choice: MeshChoice,
+        /// The autosave that it is, if it is one.
+        leftover: Option<Arc<Leftover>>,
+    },
+    /// Writes a project.
     Save {
+        /// What to write.
+        contents: Box<Contents>,
+        /// Where.
+        to: PathBuf,
+    },
+    /// Looks for autosaves of windows that stopped.
+    FindLeftovers(PathBuf),
+    /// Writes the deformed mesh.
+    Export {
         /// What was opened.
         model: Arc<Model>,
         /// What to write.
@@ -37,6 +56,8 @@ pub enum Job {
     BrowseSave {
         /// Proposed name.
         name: String,
+        /// Whether a project is to be written, or a mesh.
+        project: bool,
     },
 }
 
@@ -48,6 +69,8 @@ pub struct Opened {
     pub surface: Surface,
     /// Normals of later poses.
     pub normals: VertexNormals,
+    /// What was made of it, when it comes from a project.
+    pub restored: Option<Box<Restored>>,
 }
 
 /// What a job came to.
@@ -59,17 +82,37 @@ pub enum JobEvent {
         /// Where it came from, when it is one of the program's own.
         sample: Option<Sample>,
     },
-    /// The mesh was written.
+    /// The project was written.
     Saved {
+        /// What is on disk now.
+        contents: Box<Contents>,
+        /// Where.
+        to: PathBuf,
+        /// What could not be done as wished.
+        warnings: Vec<String>,
+    },
+    /// The mesh was written.
+    Exported {
         /// What was opened.
         model: Arc<Model>,
         /// Where.
         to: PathBuf,
-        /// The state that is on disk now.
+        /// What is in the file.
         snapshot: Snapshot,
         /// What the file could not hold.
         warnings: Vec<String>,
     },
+    /// A project is linked to a mesh that is not there any more, or another one by now.
+    MeshWanted {
+        /// The project.
+        project: PathBuf,
+        /// Where its mesh should be.
+        mesh: PathBuf,
+        /// What is wrong with that.
+        why: String,
+    },
+    /// Autosaves of windows that stopped.
+    Leftovers(Vec<Leftover>),
     /// A path was chosen to open.
     ChosenToOpen(PathBuf),
     /// Files with poses of a surface were chosen.
@@ -117,14 +160,14 @@ impl Jobs {
         self.next += 1;
         let what = label(&job);
         let opening = Opening::default();
-        if matches!(job, Job::Open(_) | Job::OpenSample(_)) {
+        if matches!(job, Job::Open(_) | Job::OpenProject { .. } | Job::OpenSample(_)) {
             self.cancel_opening();
             self.opening = Some((number, opening.clone()));
         }
         self.running.push((number, what));
         let work = move || {
-            let read = |path: &Path| opening.read(path, options, &*wake);
-            let outcome = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| run(job, read)));
+            let outcome =
+                std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| run(job, &opening, options, &*wake)));
             let event = outcome
                 .unwrap_or_else(|_| JobEvent::Failed { what, why: "it stopped unexpectedly; please report it".into() });
             // Nobody listens any more once the window is closed.
@@ -147,7 +190,7 @@ impl Jobs {
             if is_newest {
                 self.opening = None;
             }
-            if is_newest || !matches!(event, JobEvent::Opened { .. }) {
+            if is_newest || !matches!(event, JobEvent::Opened { .. } | JobEvent::MeshWanted { .. }) {
                 return Some(event);
             }
         }
@@ -179,34 +222,47 @@ impl Jobs {
 
 const OPENING: &str = "Opening…";
 const SAVING: &str = "Saving…";
+const LOOKING: &str = "Looking for unsaved work…";
 
 fn label(job: &Job) -> &'static str {
     match job {
-        Job::Open(_) | Job::OpenSample(_) => OPENING,
-        Job::Save { .. } => SAVING,
+        Job::Open(_) | Job::OpenProject { .. } | Job::OpenSample(_) => OPENING,
+        Job::Save { .. } | Job::Export { .. } => SAVING,
+        Job::FindLeftovers(_) => LOOKING,
         Job::BrowseOpen | Job::BrowsePoses(_) | Job::BrowseSave { .. } => "Waiting for the file dialog…",
     }
 }
 
-fn run(job: Job, read: impl FnOnce(&Path) -> ControlFlow<(), Result<Model, ModelError>>) -> JobEvent {
+fn run(job: Job, opening: &Opening, options: OpenOptions, wake: &(dyn Fn() + Send + Sync)) -> JobEvent {
     match job {
-        Job::Open(path) => match read(&path) {
+        Job::Open(path) if project::is_project(&path) => open_project(path, &MeshChoice::Named, None, opening, wake),
+        Job::Open(path) => match opening.read(&path, options, wake) {
             ControlFlow::Continue(model) => opened(model, None),
             ControlFlow::Break(()) => JobEvent::Dismissed,
         },
+        Job::OpenProject { path, choice, leftover } => open_project(path, &choice, leftover, opening, wake),
+        Job::Save { contents, to } => match project::save(&contents, &to) {
+            Ok(warnings) => JobEvent::Saved { contents, to, warnings },
+            Err(error) => JobEvent::Failed { what: SAVING, why: error.to_string() },
+        },
+        Job::FindLeftovers(folder) => JobEvent::Leftovers(leftovers(&folder)),
         Job::OpenSample(sample) => opened(sample.model(), Some(sample)),
-        Job::Save { model, snapshot, to } => save(model, snapshot, to),
+        Job::Export { model, snapshot, to } => export(model, snapshot, to),
         Job::BrowseOpen => {
-            let dialog = rfd::FileDialog::new().add_filter("Meshes", pliant_meshfile::Format::EXTENSIONS);
+            let both: Vec<&str> = pliant_meshfile::Format::EXTENSIONS.iter().copied().chain([EXTENSION]).collect();
+            let dialog = rfd::FileDialog::new().add_filter("Meshes and projects", &both);
             ask(|| dialog.pick_file(), JobEvent::ChosenToOpen)
         }
         Job::BrowsePoses(model) => {
             let dialog = rfd::FileDialog::new().add_filter("Meshes", pliant_meshfile::Format::EXTENSIONS);
             ask(|| dialog.pick_files(), |paths| JobEvent::ChosenPoses(model, paths))
         }
-        Job::BrowseSave { name } => {
+        Job::BrowseSave { name, project } => {
             let dialog = rfd::FileDialog::new().set_file_name(name);
-            let dialog = dialog.add_filter("Meshes", pliant_meshfile::Format::EXTENSIONS);
+            let dialog = match project {
+                true => dialog.add_filter("Projects", &[EXTENSION]),
+                false => dialog.add_filter("Meshes", pliant_meshfile::Format::EXTENSIONS),
+            };
             ask(|| dialog.save_file(), JobEvent::ChosenToSave)
         }
     }
@@ -219,6 +275,35 @@ fn ask<T>(dialog: impl FnOnce() -> Option<T>, chosen: impl FnOnce(T) -> JobEvent
         None if start.elapsed() < INSTANT => JobEvent::NoDialog,
         None => JobEvent::Dismissed,
     }
+}
+
+fn open_project(
+    path: PathBuf,
+    choice: &MeshChoice,
+    leftover: Option<Arc<Leftover>>,
+    opening: &Opening,
+    wake: &(dyn Fn() + Send + Sync),
+) -> JobEvent {
+    let loaded = match opening.read_project(&path, choice, wake) {
+        ControlFlow::Continue(Ok(loaded)) => loaded,
+        ControlFlow::Continue(Err(error)) => {
+            let why = error.to_string();
+            return match error {
+                ProjectError::MeshMissing { path: project, mesh }
+                | ProjectError::MeshChanged { path: project, mesh } => JobEvent::MeshWanted { project, mesh, why },
+                // The one that was chosen is shown again, to be replaced by the right one.
+                ProjectError::OtherMesh { mesh, .. } => JobEvent::MeshWanted { project: path, mesh, why },
+                _ => JobEvent::Failed { what: OPENING, why },
+            };
+        }
+        ControlFlow::Break(()) => return JobEvent::Dismissed,
+    };
+    let (model, restored) = Restored::of(loaded, |mesh| match leftover {
+        Some(leftover) => Origin::Leftover(leftover),
+        None => Origin::Project(ProjectFile::new(path, mesh)),
+    });
+    let opened = Opened { restored: Some(Box::new(restored)), ..Opened::new(Arc::new(model)) };
+    JobEvent::Opened { opened: Box::new(opened), sample: None }
 }
 
 fn opened(model: Result<Model, ModelError>, sample: Option<Sample>) -> JobEvent {
@@ -236,11 +321,11 @@ impl Opened {
         let mut normals = Vec::new();
         vertex_normals.compute(&positions, &model.triangles, &mut normals);
         let surface = Surface::new(&model, Arc::new(SurfaceFrame { positions, normals }));
-        Opened { model, surface, normals: vertex_normals }
+        Opened { model, surface, normals: vertex_normals, restored: None }
     }
 }
 
-fn save(model: Arc<Model>, snapshot: Snapshot, to: PathBuf) -> JobEvent {
+fn export(model: Arc<Model>, snapshot: Snapshot, to: PathBuf) -> JobEvent {
     let rigidity = &snapshot.scene.rigidity;
     // A file that never had r gets none as long as r is what it would be anyway.
     let matters = rigidity.max() > 1 || model.file.rigidity.is_some();
@@ -248,7 +333,7 @@ fn save(model: Arc<Model>, snapshot: Snapshot, to: PathBuf) -> JobEvent {
     match model.file.save(&to, &snapshot.pose.positions, rigidity) {
         Ok(warnings) => {
             let warnings = warnings.iter().map(ToString::to_string).collect();
-            JobEvent::Saved { model, to, snapshot, warnings }
+            JobEvent::Exported { model, to, snapshot, warnings }
         }
         Err(error) => JobEvent::Failed { what: SAVING, why: error.to_string() },
     }

@@ -1,6 +1,8 @@
-//! How the surface is shown: not part of the document, not undone.
+//! How the surface is shown: not part of the document, not undone. Kept between starts and in projects, by name: a new field
+//! needs nothing more.
 
 use pliant_solver::Rigidity;
+use serde::{Deserialize, Serialize};
 
 use crate::solving::Measure;
 use crate::viewport::{Shading, Theme};
@@ -11,7 +13,8 @@ pub(super) fn ramp_max(rigidity: &Rigidity) -> u16 {
 }
 
 /// What colors the surface.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum ColorBy {
     /// The file's own colors.
     Plain,
@@ -80,7 +83,8 @@ impl ColorBy {
 }
 
 /// Settings of the picture.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Look {
     /// What colors the surface.
     pub color_by: ColorBy,
@@ -98,6 +102,14 @@ pub struct Look {
     pub handles: bool,
     /// Dark or light.
     pub theme: Theme,
+}
+
+impl Look {
+    /// The same with every number in its range: what was stored may come from anywhere.
+    pub fn in_range(mut self) -> Look {
+        self.opacity = self.opacity.clamp(0.0, 1.0);
+        self
+    }
 }
 
 impl Default for Look {

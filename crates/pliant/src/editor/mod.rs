@@ -2,6 +2,7 @@
 
 mod actions;
 mod app;
+mod autosave;
 mod compare;
 mod compare_view;
 mod habits;
@@ -13,7 +14,9 @@ mod notices;
 mod open;
 mod opening;
 mod panels;
-
+mod preferences;
+mod recent;
+mod restored;
 mod samples;
 mod search;
 mod session;
@@ -25,6 +28,7 @@ mod welcome;
 
 pub use actions::{Action, Menu};
 pub use app::{EditorApp, EditorError, FrameWork, run};
+pub use autosave::{Autosave, Leftover, leftovers};
 pub use compare::{Compare, Measures, Pane, PaneKind};
 pub use habits::Habits;
 pub use jobs::{Job, JobEvent, Opened};
@@ -32,6 +36,9 @@ pub use learning::{Learning, Omega, Settings, Shown, Trial, View as LearningView
 pub use look::{ColorBy, Look};
 pub use notices::{Notice, NoticeKind, Notices};
 pub use open::Open;
+pub use preferences::Preferences;
+pub use recent::Recent;
+pub use restored::{Origin, ProjectFile, Restored};
 pub use samples::Sample;
 pub use search::find_actions;
 pub use session::Session;

@@ -6,9 +6,9 @@ use std::sync::Arc;
 use glam::Vec3;
 use pliant_geometry::VertexNormals;
 
-use super::Sample;
 use super::jobs::Opened;
-use crate::document::Document;
+use super::{Origin, ProjectFile, Restored, Sample};
+use crate::document::{Document, Snapshot};
 use crate::tools::Surface;
 use crate::viewport::{Camera, SurfaceFrame};
 
@@ -20,8 +20,10 @@ pub struct Open {
     pub surface: Surface,
     /// The eye.
     pub camera: Camera,
-    /// Where it is written by *save*, once that is known.
-    pub save_path: Option<PathBuf>,
+    /// The project it is written to by *save*, once that is known.
+    pub project: Option<ProjectFile>,
+    /// Where the mesh was last exported to, and what was.
+    pub exported: Option<(PathBuf, Snapshot)>,
     normals: VertexNormals,
     shown_epoch: u64,
 }
@@ -29,13 +31,51 @@ pub struct Open {
 impl Open {
     /// A model as opened, seen whole, with the anchors its sample comes with.
     pub(super) fn new(opened: Opened, sample: Option<Sample>) -> Open {
-        let Opened { model, surface, normals } = opened;
+        let Opened { model, surface, normals, restored } = opened;
         let camera = Camera::framing(model.bounds.0, model.bounds.1);
-        let mut document = Document::new(model);
+        let mut open = Open {
+            document: Document::new(model),
+            surface,
+            camera,
+            project: None,
+            exported: None,
+            normals,
+            shown_epoch: 0,
+        };
         if let Some(sample) = sample {
-            sample.prepare(&mut document);
+            sample.prepare(&mut open.document);
         }
-        Open { document, surface, camera, save_path: None, normals, shown_epoch: 0 }
+        if let Some(restored) = restored {
+            open.restore(*restored);
+        }
+        open
+    }
+
+    /// Takes over what a project holds.
+    fn restore(&mut self, restored: Restored) {
+        let Restored { snapshot, next_group, camera, origin, .. } = restored;
+        self.document = Document::reopened(self.document.model().clone(), snapshot, next_group);
+        self.camera = camera.unwrap_or(self.camera);
+        match origin {
+            Origin::Project(project) => self.project = Some(project),
+            // Saving asks where: recovery never writes over the original.
+            Origin::Leftover(_) => self.document.mark_unsaved(),
+        }
+        self.show_pose();
+    }
+
+    /// Name for the title: the project's, or else the mesh's.
+    pub fn name(&self) -> String {
+        let stem = self.project.as_ref().and_then(|project| project.path.file_stem());
+        stem.map_or_else(|| self.document.model().name.clone(), |stem| stem.to_string_lossy().into_owned())
+    }
+
+    /// The file that holds the bent mesh as it is now, if it was exported and not changed since.
+    pub fn is_exported(&self) -> Option<&PathBuf> {
+        let (path, then) = self.exported.as_ref()?;
+        let is_same = Arc::ptr_eq(&then.pose.positions, &self.document.pose().positions)
+            && then.scene.rigidity == self.document.scene().rigidity;
+        is_same.then_some(path)
     }
 
     /// Shows a pose that has jumped since the last look, without waiting for the solver.

@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 use pliant_meshfile::OpenOptions;
 
 use crate::document::{Model, ModelError};
+use crate::project::{self, Loaded, MeshChoice, ProjectError};
 
 /// The window is woken this often for the sake of progress.
 const PROGRESS_EVERY: Duration = Duration::from_millis(100);
@@ -50,20 +51,35 @@ impl Opening {
         options: OpenOptions,
         wake: &(dyn Fn() + Send + Sync),
     ) -> ControlFlow<(), Result<Model, ModelError>> {
+        let file = options.open_with_progress(path, &mut self.progress(wake));
+        if self.is_stopped() {
+            return ControlFlow::Break(());
+        }
+        ControlFlow::Continue(file.map_err(ModelError::from).and_then(Model::from_file))
+    }
+
+    /// Reads a project; a break when it was stopped.
+    pub(super) fn read_project(
+        &self,
+        path: &Path,
+        choice: &MeshChoice,
+        wake: &(dyn Fn() + Send + Sync),
+    ) -> ControlFlow<(), Result<Loaded, ProjectError>> {
+        let loaded = project::open(path, choice, &mut self.progress(wake));
+        if self.is_stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(loaded) }
+    }
+
+    /// What follows the reading: notes how far it is, and stops it when asked to.
+    fn progress(&self, wake: &(dyn Fn() + Send + Sync)) -> impl FnMut(f64) -> ControlFlow<()> + Send {
         let mut told = Instant::now();
-        let mut progress = |fraction: f64| {
+        move |fraction: f64| {
             self.0.done.store((READING * fraction).to_bits(), Ordering::Relaxed);
             if told.elapsed() >= PROGRESS_EVERY {
                 told = Instant::now();
                 wake();
             }
             if self.is_stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-        };
-        let file = options.open_with_progress(path, &mut progress);
-        if self.is_stopped() {
-            return ControlFlow::Break(());
         }
-        ControlFlow::Continue(file.map_err(ModelError::from).and_then(Model::from_file))
     }
 }
 

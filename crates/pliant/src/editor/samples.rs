@@ -1,6 +1,6 @@
 //! Meshes that come with the program.
 
-use pliant_meshfile::Format;
+use pliant_meshfile::{Format, OpenOptions};
 use pliant_solver::VertexId;
 
 use crate::document::{Command, Document, GroupKind, Model, ModelError};
@@ -103,7 +103,8 @@ impl Sample {
     /// Reads it. The meshes are part of the program, so an error is a defect of the program.
     pub fn model(self) -> Result<Model, ModelError> {
         let parts = self.parts();
-        let mut file = pliant_meshfile::from_bytes(parts.glb, Format::Glb, parts.name)?;
+        let options = OpenOptions { keep: true, ..OpenOptions::default() };
+        let mut file = options.from_bytes(parts.glb, Format::Glb, parts.name)?;
         if let Some(r) = parts.rigidity.and_then(|text| serde_json::from_str(text).ok()) {
             file.rigidity = Some(r);
         }

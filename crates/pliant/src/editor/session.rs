@@ -4,18 +4,23 @@
 mod compare;
 mod hints;
 mod method;
+mod project;
 mod views;
 
-use std::path::Path;
+use std::path::PathBuf;
 use std::sync::Arc;
+use std::time::Instant;
 
 use glam::{DAffine3, Vec2};
 use pliant_meshfile::{OpenOptions, Welding};
 use pliant_solver::{Rigidity, VertexId};
 
 use super::jobs::{Jobs, Opened};
-use super::{Habits, Job, JobEvent, Learning, Look, NoticeKind, Notices, Open, Sample, Shown, Status, Trial, Welcome};
-use crate::document::{Command, Document, GroupKind, Model, SelectMode, Snapshot};
+use super::{
+    Autosave, Habits, Job, JobEvent, Learning, Leftover, Look, NoticeKind, Notices, Open, Preferences, Recent, Sample,
+    Shown, Status, Trial, Welcome,
+};
+use crate::document::{Command, Document, GroupKind, History, SelectMode};
 use crate::solving::{Measure, SolveReport, SolveRequest, Worker};
 use crate::tools::{Context, Input, Marks, Options, Tool, ToolKind, View};
 
@@ -46,6 +51,20 @@ pub struct Session {
     jobs: Jobs,
     sent: Option<(u64, Option<Measure>)>,
     welcome: Option<Welcome>,
+    /// What lasts from one start to the next.
+    pub preferences: Preferences,
+    /// Files that were opened or saved lately.
+    pub recent: Recent,
+    /// Autosaves of windows that stopped, until the user has decided about them.
+    pub recovery: Vec<Arc<Leftover>>,
+    autosave: Option<Autosave>,
+    history_budget: usize,
+    /// What the preferences were last told.
+    noted: Option<(Options, Look, usize, Recent)>,
+    /// When preferences that were changed are written.
+    preferences_due: Option<Instant>,
+    /// A file that a panel wants to open: the window asks about unsaved changes first.
+    wanted: Option<PathBuf>,
     /// Revision of the document when a job was started that will replace it.
     revision_at_open: u64,
 }
@@ -73,6 +92,14 @@ impl Session {
             jobs: Jobs::new(wake),
             sent: None,
             welcome: None,
+            preferences: Preferences::default(),
+            recent: Recent::default(),
+            recovery: Vec::new(),
+            autosave: None,
+            history_budget: History::default().budget(),
+            noted: None,
+            preferences_due: None,
+            wanted: None,
             revision_at_open: 0,
         })
     }
@@ -94,10 +121,10 @@ impl Session {
 
     /// Starts work in the background; [`Session::poll`] takes what it came to.
     pub fn start(&mut self, job: Job) {
-        if matches!(job, Job::Open(_) | Job::OpenSample(_)) {
+        if matches!(job, Job::Open(_) | Job::OpenProject { .. } | Job::OpenSample(_)) {
             self.revision_at_open = self.document().map_or(0, Document::revision);
         }
-        self.jobs.start(job, OpenOptions { welding: self.welding });
+        self.jobs.start(job, OpenOptions { welding: self.welding, keep: true });
     }
 
     /// How far the mesh is that is being opened, from 0 to 1, while one is.
@@ -121,7 +148,7 @@ impl Session {
     }
 
     /// Shows a model that is already in memory.
-    pub fn show(&mut self, opened: Opened, sample: Option<Sample>) {
+    pub fn show(&mut self, mut opened: Opened, sample: Option<Sample>) {
         for warning in &opened.model.warnings {
             self.notices.push(NoticeKind::Warning, warning.clone());
         }
@@ -132,7 +159,10 @@ impl Session {
         self.compare = None;
         self.sent = None;
         self.welcome_to(sample);
+        self.take_settings(opened.restored.as_deref_mut());
+        let origin = opened.restored.as_ref().map(|restored| restored.origin.clone());
         self.open = Some(Open::new(opened, sample));
+        self.arrived(origin);
         self.synchronize();
     }
 
@@ -145,6 +175,7 @@ impl Session {
             learning.poll();
         }
         self.poll_compare();
+        self.tick(Instant::now());
         let mut for_window = Vec::new();
         while let Some(event) = self.jobs.poll() {
             match event {
@@ -155,10 +186,12 @@ impl Session {
                     self.notices.clear();
                     self.show(*opened, sample);
                 }
-                JobEvent::Saved { model, to, snapshot, warnings } => {
-                    self.saved(&model, &to, snapshot.clone(), warnings.clone());
-                    for_window.push(JobEvent::Saved { model, to, snapshot, warnings });
+                JobEvent::Saved { contents, to, warnings } => {
+                    self.saved(&contents, &to, &warnings);
+                    for_window.push(JobEvent::Saved { contents, to, warnings });
                 }
+                JobEvent::Exported { model, to, snapshot, warnings } => self.exported(&model, to, snapshot, &warnings),
+                JobEvent::Leftovers(leftovers) => self.recovery = leftovers.into_iter().map(Arc::new).collect(),
                 JobEvent::Failed { what, why } => {
                     self.notices.push(NoticeKind::Error, why.clone());
                     for_window.push(JobEvent::Failed { what, why });
@@ -168,7 +201,10 @@ impl Session {
                     NoticeKind::Warning,
                     "No file dialog answered on this machine: type the path instead, or drop a file on the window",
                 ),
-                event @ (JobEvent::ChosenToOpen(_) | JobEvent::ChosenPoses(..) | JobEvent::ChosenToSave(_)) => {
+                event @ (JobEvent::ChosenToOpen(_)
+                | JobEvent::ChosenPoses(..)
+                | JobEvent::ChosenToSave(_)
+                | JobEvent::MeshWanted { .. }) => {
                     for_window.push(event);
                 }
             }
@@ -179,19 +215,6 @@ impl Session {
     /// Whether the document was changed after the newest job that opens another was started.
     fn has_new_changes(&self) -> bool {
         self.document().is_some_and(|document| document.is_modified() && document.revision() != self.revision_at_open)
-    }
-
-    fn saved(&mut self, model: &Arc<Model>, to: &Path, snapshot: Snapshot, warnings: Vec<String>) {
-        self.notices.clear();
-        self.notices.push(NoticeKind::Done, format!("Saved {}", to.display()));
-        for warning in warnings {
-            self.notices.push(NoticeKind::Warning, warning);
-        }
-        // Another mesh may have been opened while this one was written.
-        if let Some(open) = self.open.as_mut().filter(|open| Arc::ptr_eq(open.document.model(), model)) {
-            open.document.mark_saved(snapshot);
-            open.save_path = Some(to.to_owned());
-        }
     }
 
     fn take_report(&mut self, report: SolveReport) {

@@ -23,7 +23,8 @@ pub use tool::{Context, Cursor, Input, Marks, Modifiers, Pointer, Reaction, Tool
 use crate::document::GroupKind;
 
 /// Which tool plain left clicks speak to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum ToolKind {
     /// Places and drags handles.
     Handle,

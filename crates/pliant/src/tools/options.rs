@@ -1,7 +1,12 @@
-//! What the inspector lets the user set for the tools.
+//! What the inspector lets the user set for the tools. Kept between starts and in projects, by name: a new field needs nothing
+//! more.
+
+use pliant_solver::Rigidity;
+use serde::{Deserialize, Serialize};
 
 /// What a brush dab does to r.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum BrushMode {
     /// Sets the current r.
     Set,
@@ -14,7 +19,8 @@ pub enum BrushMode {
 }
 
 /// What a drag of the select tool draws.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum SelectShape {
     /// A rectangle.
     Box,
@@ -23,7 +29,8 @@ pub enum SelectShape {
 }
 
 /// Settings of all tools; plain values.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Options {
     /// r that brush and fill give.
     pub rigidity: u16,
@@ -50,6 +57,15 @@ impl Options {
     pub fn fit_patch(&mut self, diagonal: f64, mean_edge: f64) {
         let rings = (0.02 * diagonal / mean_edge.max(f64::MIN_POSITIVE)).round();
         self.patch_rings = rings.clamp(2.0, f64::from(Options::MOST_PATCH_RINGS)) as u16;
+    }
+
+    /// The same with every number in its range: what was stored may come from anywhere.
+    pub fn in_range(mut self) -> Options {
+        let radius = Options::BRUSH_RADIUS_PX;
+        self.rigidity = self.rigidity.clamp(1, Rigidity::MAX);
+        self.brush_radius_px = self.brush_radius_px.clamp(*radius.start(), *radius.end());
+        self.patch_rings = self.patch_rings.min(Options::MOST_PATCH_RINGS);
+        self
     }
 
     /// Smallest and largest brush radius, in points (by eye).

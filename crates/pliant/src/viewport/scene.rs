@@ -14,7 +14,8 @@ pub struct SurfaceFrame {
 }
 
 /// How a triangle's light is found.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Shading {
     /// From the vertex normals: a smooth surface.
     Smooth,
@@ -41,7 +42,8 @@ pub enum Coloring {
 }
 
 /// Dark or light surroundings.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Theme {
     /// A light surface before a dark ground.
     Dark,

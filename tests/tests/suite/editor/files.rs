@@ -1,4 +1,4 @@
-//! Opening and saving.
+//! Opening and exporting.
 
 use super::*;
 
@@ -21,7 +21,7 @@ fn a_file_that_cannot_be_opened_leaves_the_document_and_says_why() {
 }
 
 #[test]
-fn what_is_saved_opens_again_with_the_same_shape_and_rigidity() {
+fn what_is_exported_opens_again_with_the_same_shape_and_rigidity() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let mut session = session_with(sheet(20));
     session.apply(Command::Hold { kind: GroupKind::Anchor, vertices: (0..21).map(VertexId).collect() });
@@ -31,8 +31,7 @@ fn what_is_saved_opens_again_with_the_same_shape_and_rigidity() {
     settle(&mut session);
     for name in ["bent.glb", "bent.obj"] {
         let to = folder.path().join(name);
-        save(&mut session, &to);
-        assert!(!document(&session).is_modified(), "still marked as modified after saving {name}");
+        export(&mut session, &to);
         let saved = document(&session).snapshot();
         let again = Model::open(&to).expect("opens again");
         assert_eq!(again.rigidity, saved.scene.rigidity, "{name}");
@@ -43,10 +42,9 @@ fn what_is_saved_opens_again_with_the_same_shape_and_rigidity() {
     }
 }
 
-fn save(session: &mut Session, to: &Path) {
-    let (model, snapshot) = (document(session).model().clone(), document(session).snapshot());
-    session.start(Job::Save { model, snapshot, to: to.to_owned() });
-    wait_until(session, "saved", |session| session.running_job().is_none());
+fn export(session: &mut Session, to: &Path) {
+    session.export(to.to_owned());
+    wait_until(session, "exported", |session| session.running_job().is_none());
     let last = session.notices.list().last().expect("a notice");
     assert!(to.is_file(), "{} was not written: {last:?}", to.display());
 }
@@ -57,9 +55,9 @@ fn rigidity_painted_back_to_1_is_1_again_in_the_file() {
     let to = folder.path().join("bent.obj");
     let mut session = session_with(sheet(4));
     session.apply(Command::FillAll(6));
-    save(&mut session, &to);
+    export(&mut session, &to);
     session.apply(Command::FillAll(1));
-    save(&mut session, &to);
+    export(&mut session, &to);
     assert_eq!(Model::open(&to).expect("opens again").rigidity.max(), 1);
 }
 
@@ -68,11 +66,13 @@ fn a_save_that_ends_after_another_mesh_was_opened_does_not_concern_that_mesh() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let mut session = session_with(sheet(20));
     session.apply(Command::FillAll(3));
-    let (model, snapshot) = (document(&session).model().clone(), document(&session).snapshot());
-    session.start(Job::Save { model, snapshot, to: folder.path().join("first.glb") });
+    session.save_project(folder.path().join("first.pliant"), pliant::project::Mesh::Packed);
+    session.export(folder.path().join("first.glb"));
     session.show(Opened::new(Arc::new(Model::from_file(sheet(4)).expect("a good mesh"))), None);
     wait_until(&mut session, "saved", |session| session.running_job().is_none());
-    assert_eq!(session.open().expect("open").save_path, None, "saving would now overwrite the first mesh");
+    let open = session.open().expect("open");
+    assert_eq!(open.project, None, "saving would now overwrite the first project");
+    assert!(open.exported.is_none(), "exporting would now overwrite the first mesh");
 }
 
 #[test]

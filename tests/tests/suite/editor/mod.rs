@@ -7,6 +7,7 @@ mod handles;
 mod learning;
 mod monkey;
 mod painting;
+mod projects;
 mod views;
 
 use std::path::Path;

@@ -2,9 +2,9 @@
 
 use super::source::GltfSource;
 use super::{base64, compressed, container::Container, json};
+use crate::folder::Folder;
 use crate::{Fault, budget, files};
 use serde_json::Value;
-use std::path::Path;
 
 /// Where a buffer's bytes are.
 #[derive(Debug)]
@@ -30,7 +30,7 @@ impl Buffer {
 }
 
 /// Loads every buffer of a document, together within the budget of one file.
-pub(super) fn load(document: &Value, container: &Container, folder: Option<&Path>) -> Result<Vec<Buffer>, Fault> {
+pub(super) fn load(document: &Value, container: &Container, folder: Option<&Folder>) -> Result<Vec<Buffer>, Fault> {
     let mut total = 0;
     let mut buffers = Vec::new();
     let all = json::list(document, "buffers")?;
@@ -60,7 +60,7 @@ fn load_one(
     buffer: &Value,
     index: usize,
     container: &Container,
-    folder: Option<&Path>,
+    folder: Option<&Folder>,
     limit: u64,
 ) -> Result<Buffer, String> {
     if !buffer.is_object() {
@@ -79,7 +79,9 @@ fn load_one(
     }
     let shown = crate::rigidity::quoted(uri);
     let reference = files::percent_decoded(uri).ok_or_else(|| format!("its URI {shown} is not text"))?;
-    files::read_beside(folder, &reference, limit)
+    let folder = folder.ok_or_else(|| format!("its file {shown} cannot be read: no folder to look in"))?;
+    folder
+        .read(&reference, limit)
         .map(Buffer::File)
         .map_err(|reason| format!("its file {shown} cannot be read: {reason}"))
 }

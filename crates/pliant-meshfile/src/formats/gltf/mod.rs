@@ -46,6 +46,10 @@ impl Source for GltfSource {
         shape::shape(self, edit)
     }
 
+    fn references(&self) -> Vec<String> {
+        relocate::images_beside(&self.document).filter_map(crate::files::percent_decoded).collect()
+    }
+
     fn bindings(&self) -> Option<Box<dyn Bindings + '_>> {
         motion::bindings(self)
     }

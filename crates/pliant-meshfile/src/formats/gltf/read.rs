@@ -37,15 +37,8 @@ pub(crate) fn read(input: Input<'_>) -> Result<Opened, Fault> {
     let Reader { blocks, primitives, positions, triangles, rigidity, uvs, colors, parts, .. } = reader;
     let n = positions.len();
     warnings.extend(reader.warnings);
-    let source = GltfSource {
-        blocks,
-        primitives,
-        folder: input.folder.map(std::path::Path::to_owned),
-        container,
-        document,
-        buffers,
-        decoded,
-    };
+    let source =
+        GltfSource { blocks, primitives, folder: input.folder.cloned(), container, document, buffers, decoded };
     Ok(Opened {
         positions,
         triangles,

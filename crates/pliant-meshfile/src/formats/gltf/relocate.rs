@@ -28,7 +28,7 @@ pub(super) struct Relocated {
 pub(super) fn relocate(source: &GltfSource, to: &Path, glb: bool) -> Relocated {
     let mut document = source.document.clone();
     let mut warnings = Vec::new();
-    let stays = source.folder.as_ref().is_none_or(|folder| files::same_folder(&folder.join("x"), to));
+    let stays = source.folder.as_ref().is_none_or(|folder| folder.holds(to));
     let starts_with_chunk = matches!(source.buffers.first(), Some(Buffer::Chunk));
     let mut changed = glb != source.container.is_glb;
     let beyond = buffers::reached_beyond(source);
@@ -127,17 +127,28 @@ fn move_view(view: &mut Value, moves: &[(usize, u64)]) {
     }
 }
 
+/// URIs of the images that are files of their own.
+pub(super) fn images_beside(document: &Value) -> impl Iterator<Item = &str> {
+    let images = document.get("images").and_then(Value::as_array).into_iter().flatten();
+    images.filter_map(|image| image.get("uri")?.as_str()).filter(|uri| is_beside(uri))
+}
+
+fn is_beside(uri: &str) -> bool {
+    !uri.starts_with("data:") && !uri.contains("://")
+}
+
 fn embed_images(source: &GltfSource, document: &mut Value, warnings: &mut Vec<Warning>) -> bool {
     let mut changed = false;
     for image in document.get_mut("images").and_then(Value::as_array_mut).into_iter().flatten() {
         let Some(uri) = image.get("uri").and_then(Value::as_str) else { continue };
-        if uri.starts_with("data:") || uri.contains("://") {
+        if !is_beside(uri) {
             continue;
         }
         let shown = crate::rigidity::quoted(uri);
-        let read = files::percent_decoded(uri)
-            .ok_or_else(|| "its URI is not text".to_owned())
-            .and_then(|path| files::read_beside(source.folder.as_deref(), &path, budget::TEXT_BYTES));
+        let read = files::percent_decoded(uri).ok_or_else(|| "its URI is not text".to_owned()).and_then(|path| {
+            let folder = source.folder.as_ref().ok_or("no folder to look in")?;
+            folder.read(&path, budget::TEXT_BYTES)
+        });
         match read {
             Ok(bytes) => {
                 let stated = image.get("mimeType").and_then(Value::as_str).map(str::to_owned);

@@ -3,10 +3,10 @@
 use super::buffers::Buffer;
 use super::compressed::Decoded;
 use super::container::Container;
+use crate::folder::Folder;
 use glam::{DMat4, DVec3};
 use serde_json::Value;
 use std::ops::Range;
-use std::path::PathBuf;
 
 /// A glTF file as it came.
 #[derive(Debug)]
@@ -19,7 +19,7 @@ pub(super) struct GltfSource {
     pub(super) decoded: Decoded,
     pub(super) blocks: Vec<Block>,
     pub(super) primitives: Vec<Primitive>,
-    pub(super) folder: Option<PathBuf>,
+    pub(super) folder: Option<Folder>,
 }
 
 /// A POSITION accessor: a range of file vertices that move together into world space.

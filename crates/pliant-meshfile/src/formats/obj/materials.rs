@@ -2,15 +2,15 @@
 
 use super::parse::{MAX_LIBRARIES, Parsed};
 use super::text::Statements;
+use crate::folder::Folder;
 use crate::saving::Unfinished;
 use crate::shape::{Material, NO_MATERIAL};
 use crate::{Warning, budget, files};
 use std::collections::HashMap;
-use std::path::Path;
 
 /// The materials the file uses, in the order of their first use, with base colors from its libraries where they can
 /// be read inside `folder`.
-pub(super) fn load(parsed: &mut Parsed, folder: Option<&Path>, unfinished: Option<&Unfinished>) -> Vec<Material> {
+pub(super) fn load(parsed: &mut Parsed, folder: Option<&Folder>, unfinished: Option<&Unfinished>) -> Vec<Material> {
     let unknown = |name: &String| Material { name: name.clone(), base_color: NO_MATERIAL };
     let mut materials: Vec<Material> = parsed.material_names.iter().map(unknown).collect();
     let mut wanted: HashMap<&str, &mut [f32; 4]> =
@@ -18,9 +18,14 @@ pub(super) fn load(parsed: &mut Parsed, folder: Option<&Path>, unfinished: Optio
     let mut left = budget::TEXT_BYTES;
     let mut read = |name: &str| -> Result<(), String> {
         let waiting = unfinished.and_then(|unfinished| unfinished.temporary_of(name.as_ref()));
-        let bytes = match (waiting, folder) {
-            (Some(waiting), Some(folder)) => files::read_inside(folder, waiting, left)?,
-            _ => files::read_beside(folder, name, left)?,
+        let folder = folder.ok_or("no folder to look in")?;
+        let bytes = match (waiting, folder.path()) {
+            (Some(waiting), Some(disk)) => {
+                let bytes = files::read_inside(disk, waiting, left)?;
+                folder.keep(name, &bytes);
+                bytes
+            }
+            _ => folder.read(name, left)?,
         };
         left -= bytes.len() as u64;
         find(&mut wanted, &bytes);

@@ -46,7 +46,7 @@ pub(super) fn read(input: Input<'_>) -> Result<Opened, Fault> {
         libraries: parsed.libraries,
         polygons: parsed.polygons,
         skipped: parsed.skipped,
-        folder: input.folder.map(Path::to_owned),
+        folder: input.folder.cloned(),
     };
     Ok(Opened {
         positions: parsed.positions,
@@ -89,6 +89,21 @@ impl ObjSource {
 impl Source for ObjSource {
     fn rewrite(&self, edit: &Edit<'_>, to: &Path, format: Format) -> Option<Result<Output, SaveError>> {
         (format == Format::Obj).then(|| rewrite::rewrite(self, edit, to))
+    }
+
+    fn unpacked(&self, to: &Path) -> Vec<(String, Vec<u8>)> {
+        let Some(pack) = self.folder.as_ref().filter(|folder| folder.path().is_none()) else { return Vec::new() };
+        if Format::of(to) != Some(Format::Obj) {
+            return Vec::new();
+        }
+        // The sidecar is in the pack too, and is written with the mesh.
+        let named = |name: &String| {
+            let is_whole = |line: &String| line == name;
+            let is_word = |line: &String| line.split_whitespace().any(|word| word == name);
+            self.libraries.iter().any(|line| is_whole(line) || is_word(line))
+        };
+        let files = pack.kept().into_iter().filter(|(name, _)| named(name));
+        files.map(|(name, bytes)| (name, Arc::unwrap_or_clone(bytes))).collect()
     }
 
     fn polygons(&self) -> &[Range<u32>] {

@@ -4,7 +4,7 @@ use super::source::ObjSource;
 use super::text::statement_at;
 use crate::formats::{Edit, Output};
 use crate::shape::NONE;
-use crate::{SaveError, Warning, files, normals};
+use crate::{SaveError, Warning, normals};
 use glam::Vec3;
 use std::collections::HashMap;
 use std::io::Write;
@@ -97,14 +97,14 @@ fn torn_normals(source: &ObjSource, edit: &Edit<'_>, of_line: &[(Vec3, bool)]) -
 
 fn stranded_libraries(source: &ObjSource, to: &Path) -> Vec<Warning> {
     let Some(folder) = &source.folder else { return Vec::new() };
-    if source.libraries.is_empty() || files::same_folder(&folder.join("x"), to) {
+    let Some(disk) = folder.path().filter(|_| !source.libraries.is_empty() && !folder.holds(to)) else {
         return Vec::new();
-    }
+    };
     let names: Vec<String> = source.libraries.iter().map(|name| crate::rigidity::quoted(name)).collect();
     let text = format!(
         "the material library {} stays in {}: copy it beside the saved file to keep the materials",
         names.join(", "),
-        folder.display()
+        disk.display()
     );
     vec![Warning(text)]
 }

@@ -1,10 +1,10 @@
 //! An OBJ file as it came.
 
 use super::parse::Skipped;
+use crate::folder::Folder;
 use crate::shape::{Material, ShapePart};
 use glam::{Vec2, Vec3};
 use std::ops::Range;
-use std::path::PathBuf;
 
 /// An OBJ file as it came.
 #[derive(Debug)]
@@ -25,5 +25,5 @@ pub(super) struct ObjSource {
     /// Triangles that each face of more than three corners was cut into.
     pub(super) polygons: Vec<Range<u32>>,
     pub(super) skipped: Skipped,
-    pub(super) folder: Option<PathBuf>,
+    pub(super) folder: Option<Folder>,
 }

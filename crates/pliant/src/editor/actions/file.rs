@@ -12,7 +12,7 @@ actions! {
     OPEN = Entry::new(
         "file.open",
         "Open…",
-        "Open a mesh: OBJ, glTF, GLB, PLY, STL or OFF. A file dropped on the window opens too",
+        "Open a mesh (OBJ, glTF, GLB, PLY, STL, OFF) or a project. A file dropped on the window opens too",
     )
     .key(CTRL, Key::O)
     .anytime()
@@ -42,15 +42,23 @@ actions! {
     REOPEN = Entry::new("file.reopen", "Reopen", "Read the file again, as it is now, with the welding that is chosen")
         .unless(comes_from_no_file)
         .window(EditorApp::reopen);
-    /// Writes to where it was last written, or asks.
-    SAVE = Entry::new("file.save", "Save", "Write the bent mesh to where it was last saved")
+    /// Writes the project to where it was last written, or asks.
+    SAVE = Entry::new("file.save", "Save", "Save the project: mesh, rigidity, handles, pose and view, to go on with later")
         .key(CTRL, Key::S)
         .apart()
         .window(|app, _| app.save());
-    /// Asks where to write.
-    SAVE_AS = Entry::new("file.save-as", "Save as…", "Write the bent mesh, with everything else the file held")
+    /// Asks where to write the project.
+    SAVE_AS = Entry::new("file.save-as", "Save as…", "Save the project under another name")
         .key(CTRL_SHIFT, Key::S)
         .window(|app, _| app.ask_where_to_save());
+    /// Asks where to write the mesh.
+    EXPORT = Entry::new(
+        "file.export",
+        "Export mesh…",
+        "Write the bent mesh for other programs: OBJ, glTF, GLB, PLY, STL or OFF, with everything else its file held",
+    )
+    .key(CTRL, Key::E)
+    .window(|app, _| app.ask_where_to_export());
     /// Closes the window.
     QUIT = Entry::new("file.quit", "Quit", "Close the window; unsaved work is asked about first")
         .key(CTRL, Key::Q)
@@ -69,5 +77,8 @@ fn open_sample(app: &mut EditorApp, ctx: &egui::Context, sample: Sample) {
 
 fn comes_from_no_file(session: &Session) -> Option<&'static str> {
     let path = session.document().and_then(|document| document.model().file.path.as_ref());
+    if session.open().is_some_and(|open| open.project.is_some()) {
+        return Some("This mesh belongs to a project: to weld it in another way, open its own file");
+    }
     path.is_none().then_some("This mesh comes from no file")
 }

@@ -4,10 +4,11 @@ use std::path::PathBuf;
 
 use egui::{Id, Key, Modal, RichText, TextEdit, Ui};
 
-use super::help;
 use super::key_sheet::KeySheet;
 use super::palette::Palette;
+use super::{files, help};
 use crate::editor::{Action, Job, Sample, Session};
+use crate::project::Mesh;
 
 /// The dialog on screen.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -20,10 +21,26 @@ pub(in crate::editor) enum Dialog {
         /// What is typed.
         path: String,
     },
-    /// Where to write.
+    /// Where to write the project.
     Save {
         /// What is typed.
         path: String,
+        /// How the mesh goes into it.
+        mesh: Mesh,
+    },
+    /// Where to write the bent mesh.
+    Export {
+        /// What is typed.
+        path: String,
+    },
+    /// Where the mesh of a project is.
+    Mesh {
+        /// The project.
+        project: PathBuf,
+        /// What is typed.
+        path: String,
+        /// What is wrong with the mesh it names.
+        why: String,
     },
     /// Any action by its name.
     Palette(Palette),
@@ -44,6 +61,10 @@ pub(in crate::editor) enum Loss {
     Open(PathBuf),
     /// Opening a sample.
     OpenSample(Sample),
+    /// Opening the autosave in this file.
+    Recover(PathBuf),
+    /// Opening a project with a mesh that was chosen.
+    OpenProject(PathBuf, PathBuf),
     /// Showing a mesh that has been read meanwhile.
     Show,
     /// Closing the window.
@@ -57,8 +78,12 @@ pub(in crate::editor) enum DialogOutcome {
     Open(PathBuf),
     /// Open this sample.
     OpenSample(Sample),
-    /// Write here.
-    Save(PathBuf),
+    /// Write the project here.
+    Save(PathBuf, Mesh),
+    /// Write the mesh here.
+    Export(PathBuf),
+    /// Open a project with this mesh.
+    OpenProject(PathBuf, PathBuf),
     /// Lose the changes.
     Lose(Loss),
     /// Save first, then go on.
@@ -82,12 +107,16 @@ impl Dialog {
             match self {
                 Dialog::None => {}
                 Dialog::Open { path } => outcome = open(ui, path, session, &mut close),
-                Dialog::Save { path } => outcome = save(ui, path, session, &mut close),
+                Dialog::Save { path, mesh } => outcome = files::save(ui, (path, mesh), session, &mut close),
+                Dialog::Export { path } => outcome = export(ui, path, session, &mut close),
+                Dialog::Mesh { project, path, why } => {
+                    outcome = files::mesh(ui, (project, path, why), session, &mut close);
+                }
                 Dialog::Palette(palette) => outcome = palette.show(ui, session).map(DialogOutcome::Do),
                 Dialog::Keys(sheet) => sheet.show(ui, session, &mut close),
                 Dialog::WhatIsRigidity => help::what_rigidity_is(ui, &mut close),
                 Dialog::About => help::about(ui, &mut close),
-                Dialog::Unsaved(loss) => outcome = unsaved(ui, loss, &mut close),
+                Dialog::Unsaved(loss) => outcome = unsaved(ui, loss, session, &mut close),
             }
         });
         if outcome.is_some() || close || modal.should_close() {
@@ -99,12 +128,13 @@ impl Dialog {
 }
 
 fn open(ui: &mut Ui, path: &mut String, session: &mut Session, close: &mut bool) -> Option<DialogOutcome> {
-    ui.heading("Open a mesh");
-    ui.label(RichText::new("OBJ, glTF, GLB, PLY, STL and OFF. A file dropped on the window opens too.").weak());
+    ui.heading("Open a mesh or a project");
+    let text = "OBJ, glTF, GLB, PLY, STL, OFF and .pliant. A file dropped on the window opens too.";
+    ui.label(RichText::new(text).weak());
     ui.add_space(6.0);
     let entered = path_field(ui, path, || session.start(Job::BrowseOpen));
     ui.add_space(6.0);
-    let mut outcome = None;
+    let mut outcome = super::recent::list(ui, session).map(DialogOutcome::Open);
     ui.horizontal(|ui| {
         ui.label(RichText::new("Samples").weak());
         for sample in Sample::ALL {
@@ -123,13 +153,14 @@ fn open(ui: &mut Ui, path: &mut String, session: &mut Session, close: &mut bool)
     outcome
 }
 
-fn save(ui: &mut Ui, path: &mut String, session: &mut Session, close: &mut bool) -> Option<DialogOutcome> {
-    ui.heading("Save the bent mesh");
+fn export(ui: &mut Ui, path: &mut String, session: &mut Session, close: &mut bool) -> Option<DialogOutcome> {
+    ui.heading("Export the bent mesh");
     let text = "The ending chooses the format: .glb, .gltf, .obj, .ply, .stl or .off. Rigidity is kept with the mesh.";
     ui.label(RichText::new(text).weak());
     ui.add_space(6.0);
     let name = PathBuf::from(path.trim()).file_name().map(|name| name.to_string_lossy().into_owned());
-    let entered = path_field(ui, path, || session.start(Job::BrowseSave { name: name.unwrap_or_default() }));
+    let browse = || session.start(Job::BrowseSave { name: name.unwrap_or_default(), project: false });
+    let entered = path_field(ui, path, browse);
     let typed = PathBuf::from(path.trim());
     let known = pliant_meshfile::Format::of(&typed).is_some();
     let exists = typed.is_file();
@@ -140,12 +171,12 @@ fn save(ui: &mut Ui, path: &mut String, session: &mut Session, close: &mut bool)
     };
     ui.label(RichText::new(note).weak());
     ui.add_space(6.0);
-    let label = if exists { "Replace" } else { "Save" };
-    confirm(ui, label, known, note, entered, close).then_some(DialogOutcome::Save(typed))
+    let label = if exists { "Replace" } else { "Export" };
+    confirm(ui, label, known, note, entered, close).then_some(DialogOutcome::Export(typed))
 }
 
 /// A field for a path with a button for the platform's dialog; whether Enter was pressed in it.
-fn path_field(ui: &mut Ui, path: &mut String, browse: impl FnOnce()) -> bool {
+pub(super) fn path_field(ui: &mut Ui, path: &mut String, browse: impl FnOnce()) -> bool {
     let mut entered = false;
     ui.horizontal(|ui| {
         let width = ui.available_width() - 90.0;
@@ -161,7 +192,7 @@ fn path_field(ui: &mut Ui, path: &mut String, browse: impl FnOnce()) -> bool {
     entered
 }
 
-fn confirm(ui: &mut Ui, label: &str, can: bool, why_not: &str, entered: bool, close: &mut bool) -> bool {
+pub(super) fn confirm(ui: &mut Ui, label: &str, can: bool, why_not: &str, entered: bool, close: &mut bool) -> bool {
     let mut confirmed = entered && can;
     ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
         let button = ui.add_enabled(can, egui::Button::new(label)).on_disabled_hover_text(why_not);
@@ -171,13 +202,18 @@ fn confirm(ui: &mut Ui, label: &str, can: bool, why_not: &str, entered: bool, cl
     confirmed
 }
 
-fn unsaved(ui: &mut Ui, loss: &Loss, close: &mut bool) -> Option<DialogOutcome> {
+fn unsaved(ui: &mut Ui, loss: &Loss, session: &Session, close: &mut bool) -> Option<DialogOutcome> {
     ui.heading("Save your changes?");
     let what = match loss {
         Loss::Close => "Closing the window",
-        Loss::Open(_) | Loss::OpenSample(_) | Loss::Show => "Opening another mesh",
+        Loss::Open(_) | Loss::OpenSample(_) | Loss::OpenProject(..) | Loss::Show => "Opening another mesh",
+        Loss::Recover(_) => "Recovering unsaved work",
     };
-    ui.label(format!("{what} loses what was bent and painted since the last save."));
+    ui.label(format!("{what} loses what was bent, painted and placed since the last save."));
+    if let Some(path) = session.open().and_then(|open| open.is_exported()) {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        ui.label(RichText::new(format!("The bent mesh itself is in {name}; handles and anchors are not.")).weak());
+    }
     ui.add_space(10.0);
     let mut outcome = None;
     ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
@@ -203,12 +239,15 @@ mod tests {
         // A new kind does not compile here, to be listed below.
         match Dialog::None {
             Dialog::None | Dialog::Open { .. } | Dialog::Save { .. } | Dialog::Palette(_) => {}
+            Dialog::Export { .. } | Dialog::Mesh { .. } => {}
             Dialog::Keys(_) | Dialog::WhatIsRigidity | Dialog::About | Dialog::Unsaved(_) => {}
         }
         let path = String::new();
         vec![
             Dialog::Open { path: path.clone() },
-            Dialog::Save { path },
+            Dialog::Save { path: path.clone(), mesh: Mesh::Packed },
+            Dialog::Export { path: path.clone() },
+            Dialog::Mesh { project: PathBuf::new(), path, why: String::new() },
             Dialog::Palette(Palette::default()),
             Dialog::Keys(KeySheet::default()),
             Dialog::WhatIsRigidity,

@@ -2,7 +2,7 @@
 
 use egui::{CollapsingHeader, RichText, ScrollArea, Ui};
 
-use super::{mesh_section, paint, sections, solver, view, weld};
+use super::{history, mesh_section, paint, sections, solver, view, weld};
 use crate::editor::{Action, Session};
 use crate::tools::ToolKind;
 
@@ -34,6 +34,7 @@ pub(in crate::editor) fn inspector(ui: &mut Ui, session: &mut Session) -> Option
         }
         section(ui, "Handles", true, |ui| sections::handles(ui, session, &mut chosen));
         section(ui, "Solver", true, |ui| solver::solver(ui, session));
+        section(ui, "History", false, |ui| history::history(ui, session));
         section(ui, "View", false, |ui| view::view(ui, session));
         section(ui, "Mesh", false, |ui| {
             mesh_section::mesh(ui, session);

@@ -17,7 +17,7 @@ pub(in crate::editor) fn menu(ui: &mut Ui, session: &mut Session) -> Option<Acti
 }
 
 /// Actions one below the other; a run of them with the same submenu is in a menu of its own.
-fn items(ui: &mut Ui, session: &Session, actions: &[Action], chosen: &mut Option<Action>) {
+fn items(ui: &mut Ui, session: &mut Session, actions: &[Action], chosen: &mut Option<Action>) {
     for run in actions.chunk_by(|a, b| a.submenu() == b.submenu()) {
         match run.first().and_then(|action| action.submenu()) {
             Some(name) => {
@@ -32,6 +32,9 @@ fn items(ui: &mut Ui, session: &Session, actions: &[Action], chosen: &mut Option
                         ui.separator();
                     }
                     item(ui, session, action, chosen);
+                    if action == Action::OPEN {
+                        super::recent::menu(ui, session);
+                    }
                 }
             }
         }

@@ -1,7 +1,9 @@
 //! The parts of the window around the viewport. Each is a function of the session.
 
 mod dialogs;
+mod files;
 mod help;
+mod history;
 mod icons;
 mod inspector;
 mod key_sheet;
@@ -13,6 +15,8 @@ mod notices;
 mod paint;
 mod palette;
 mod rail;
+mod recent;
+mod recovery;
 mod sections;
 mod solver;
 mod status;
@@ -29,6 +33,7 @@ pub(super) use menu::menu;
 pub(super) use notices::notices;
 pub(super) use palette::Palette;
 pub(super) use rail::rail;
+pub(super) use recovery::recovery;
 pub(super) use status::status;
 pub(super) use welcome::welcome;
 
