@@ -11,7 +11,7 @@ use super::compare_view::CompareView;
 use super::keyboard::Keyboard;
 use super::panels::{self, Dialog, Loss};
 use super::viewport_panel::ViewportPanel;
-use super::{Habits, Job, NoticeKind, Opened, Sample, Session, theme};
+use super::{Job, NoticeKind, Opened, Sample, Session, theme};
 
 /// Why the window could not be shown.
 #[derive(Debug, thiserror::Error)]
@@ -69,7 +69,6 @@ impl EditorApp {
         let render_state = cc.wgpu_render_state.as_ref().ok_or(EditorError::NoAdapter)?;
         let ctx = cc.egui_ctx.clone();
         let mut session = Session::new(move || ctx.request_repaint())?;
-        session.habits = cc.storage.map(stored_habits).unwrap_or_default();
         if let Some(data) = data {
             session.remember_in(data);
         }
@@ -125,20 +124,7 @@ impl EditorApp {
     }
 }
 
-/// Where the habits are in what eframe stores.
-const HABITS: &str = "habits";
-
-fn stored_habits(storage: &dyn eframe::Storage) -> Habits {
-    storage.get_string(HABITS).and_then(|text| serde_json::from_str(&text).ok()).unwrap_or_default()
-}
-
 impl eframe::App for EditorApp {
-    fn save(&mut self, storage: &mut dyn eframe::Storage) {
-        if let Ok(text) = serde_json::to_string(&self.session.habits) {
-            storage.set_string(HABITS, text);
-        }
-    }
-
     fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
         self.take_events(ctx);
         self.take_dropped(ctx);

@@ -60,7 +60,7 @@ pub struct Session {
     autosave: Option<Autosave>,
     history_budget: usize,
     /// What the preferences were last told.
-    noted: Option<(Options, Look, usize, Recent)>,
+    noted: Option<(Options, Look, usize, Recent, Habits)>,
     /// When preferences that were changed are written.
     preferences_due: Option<Instant>,
     /// A file that a panel wants to open: the window asks about unsaved changes first.

@@ -113,6 +113,7 @@ fn question(ctx: &Context, mut path: String, sender: &Sender<Told>) -> Stage {
             .horizontal(|ui| {
                 let width = ui.available_width() - 90.0;
                 let field = ui.add(TextEdit::singleline(&mut path).hint_text("Path").desired_width(width));
+                let field = field.on_hover_text("Path of the picture");
                 if ui.button("Browse…").on_hover_text("The platform's own file dialog").clicked() {
                     browse(ui.ctx(), &path, sender.clone());
                 }
@@ -128,7 +129,7 @@ fn question(ctx: &Context, mut path: String, sender: &Sender<Told>) -> Stage {
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             let button = ui.add_enabled(obstacle.is_empty(), Button::new("Save")).on_disabled_hover_text(obstacle);
             save = button.clicked() || entered && obstacle.is_empty();
-            cancel = ui.button("Cancel").clicked();
+            cancel = ui.button("Cancel").on_hover_text("Write nothing (Esc)").clicked();
         });
     });
     match (save, cancel || modal.should_close()) {

@@ -138,7 +138,7 @@ fn open(ui: &mut Ui, path: &mut String, session: &mut Session, close: &mut bool)
     ui.horizontal(|ui| {
         ui.label(RichText::new("Samples").weak());
         for sample in Sample::ALL {
-            if ui.button(sample.name()).clicked() {
+            if ui.button(sample.name()).on_hover_text("A mesh that comes with Pliant").clicked() {
                 outcome = Some(DialogOutcome::OpenSample(sample));
             }
         }
@@ -181,6 +181,7 @@ pub(super) fn path_field(ui: &mut Ui, path: &mut String, browse: impl FnOnce()) 
     ui.horizontal(|ui| {
         let width = ui.available_width() - 90.0;
         let field = ui.add(TextEdit::singleline(path).hint_text("Path").desired_width(width).id_salt("path"));
+        let field = field.on_hover_text("Path of the file, with its ending");
         entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
         if !field.has_focus() && !entered && ui.memory(|memory| memory.focused().is_none()) {
             field.request_focus();
@@ -195,9 +196,9 @@ pub(super) fn path_field(ui: &mut Ui, path: &mut String, browse: impl FnOnce()) 
 pub(super) fn confirm(ui: &mut Ui, label: &str, can: bool, why_not: &str, entered: bool, close: &mut bool) -> bool {
     let mut confirmed = entered && can;
     ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-        let button = ui.add_enabled(can, egui::Button::new(label)).on_disabled_hover_text(why_not);
-        confirmed |= button.clicked();
-        *close |= ui.button("Cancel").clicked();
+        let button = ui.add_enabled(can, egui::Button::new(label)).on_hover_text("Or press Enter in the path");
+        confirmed |= button.on_disabled_hover_text(why_not).clicked();
+        *close |= ui.button("Cancel").on_hover_text("Do nothing (Esc)").clicked();
     });
     confirmed
 }
@@ -217,13 +218,13 @@ fn unsaved(ui: &mut Ui, loss: &Loss, session: &Session, close: &mut bool) -> Opt
     ui.add_space(10.0);
     let mut outcome = None;
     ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-        if ui.button("Save…").clicked() {
+        if ui.button("Save…").on_hover_text("Save first, then go on").clicked() {
             outcome = Some(DialogOutcome::SaveFirst(loss.clone()));
         }
-        if ui.button("Discard").clicked() {
+        if ui.button("Discard").on_hover_text("Go on, and lose the changes").clicked() {
             outcome = Some(DialogOutcome::Lose(loss.clone()));
         }
-        *close |= ui.button("Cancel").clicked();
+        *close |= ui.button("Cancel").on_hover_text("Stay here, and keep everything (Esc)").clicked();
     });
     outcome
 }

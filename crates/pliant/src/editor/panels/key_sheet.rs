@@ -29,6 +29,7 @@ impl KeySheet {
         ui.heading("Keys and mouse");
         ui.horizontal(|ui| {
             let field = ui.add(TextEdit::singleline(&mut self.query).hint_text("Search").desired_width(260.0));
+            let field = field.on_hover_text("Words of an action, or keys");
             super::name(ui, &field, "Search keys and mouse");
             if self.asking.is_none() && ui.memory(|memory| memory.focused().is_none()) {
                 field.request_focus();

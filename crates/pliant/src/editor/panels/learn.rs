@@ -74,7 +74,7 @@ fn stage(ui: &mut Ui, learning: &mut Learning) -> Option<Wanted> {
         View::Gathering { done, left } => {
             ui.label("Reading the poses…");
             bar(ui, done, left);
-            if ui.button("Cancel").clicked() {
+            if ui.button("Cancel").on_hover_text("Stop reading, and choose other poses").clicked() {
                 learning.choose();
             }
             None
@@ -140,7 +140,7 @@ fn choosing(ui: &mut Ui, learning: &mut Learning) -> Option<Wanted> {
         if button.on_disabled_hover_text("Add poses first").clicked() {
             wanted = Some(Wanted::Learn);
         }
-        if ui.button("Close").clicked() {
+        if ui.button("Close").on_hover_text("Leave everything as it was").clicked() {
             wanted = Some(Wanted::Close);
         }
     });
@@ -161,7 +161,9 @@ fn sources(ui: &mut Ui, learning: &mut Learning) {
     ScrollArea::vertical().max_height(LONGEST_LIST).show(ui, |ui| {
         for (place, source) in learning.sources().iter().enumerate() {
             ui.horizontal(|ui| {
-                if ui.small_button("×").on_hover_text("Take off the list").clicked() {
+                let button = ui.small_button("×").on_hover_text("Take off the list");
+                super::name(ui, &button, &format!("Take {} off the list", source.name()));
+                if button.clicked() {
                     gone = Some(place);
                 }
                 match source {
@@ -186,6 +188,8 @@ fn path_field(ui: &mut Ui, learning: &mut Learning) {
     let mut path = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_default();
     let field =
         ui.add(TextEdit::singleline(&mut path).hint_text("or type a path, then Enter").desired_width(WIDTH - 12.0));
+    let field = field.on_hover_text("A file with poses of this mesh");
+    super::name(ui, &field, "Path of a file with poses");
     let is_entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
     if is_entered && !path.trim().is_empty() {
         learning.add_files([PathBuf::from(path.trim())]);
@@ -197,13 +201,16 @@ fn path_field(ui: &mut Ui, learning: &mut Learning) {
 
 fn options(ui: &mut Ui, learning: &mut Learning) {
     ui.horizontal(|ui| {
-        ui.add(DragValue::new(&mut learning.r_max).range(2..=Rigidity::MAX.min(20)).speed(0.05));
-        ui.label("largest rigidity")
-            .on_hover_text("r from 1 to this one is tried at every vertex (r_max in the paper)");
+        let tip = "r from 1 to this one is tried at every vertex (r_max in the paper)";
+        let value = DragValue::new(&mut learning.r_max).range(2..=Rigidity::MAX.min(20)).speed(0.05);
+        let value = ui.add(value).on_hover_text(tip);
+        value.labelled_by(ui.label("largest rigidity").on_hover_text(tip).id);
     });
     ui.horizontal(|ui| {
-        ui.add(DragValue::new(&mut learning.options.frames).range(1..=1000).speed(0.2));
-        ui.label("frames of each animation");
+        let value = DragValue::new(&mut learning.options.frames).range(1..=1000).speed(0.2);
+        let value =
+            ui.add(value).on_hover_text("Poses that are taken from each animation, evenly spread over its time");
+        value.labelled_by(ui.label("frames of each animation").id);
     });
     ui.checkbox(&mut learning.options.match_scale, "poses may be in another unit")
         .on_hover_text("The scale of each file is found and divided out");
@@ -224,13 +231,13 @@ fn asking(ui: &mut Ui, reading: &Reading) -> Option<Answer> {
     ui.horizontal_wrapped(|ui| {
         let label =
             if n_good == 1 { "Go on with the other one".into() } else { format!("Go on with the other {n_good}") };
-        if ui.button(label).clicked() {
+        if ui.button(label).on_hover_text("Go on with the poses that can be used").clicked() {
             wish = Some(Answer::GoOn);
         }
         if reading.only_faces_differ && ui.button("Use the faces of this mesh").on_hover_text(SAME_VERTICES).clicked() {
             wish = Some(Answer::UseFaces);
         }
-        if ui.button("Back").clicked() {
+        if ui.button("Back").on_hover_text("Choose other poses").clicked() {
             wish = Some(Answer::Back);
         }
     });

@@ -22,6 +22,7 @@ impl Palette {
         let entered = ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Enter));
         let hint = "What do you want to do?";
         let field = ui.add(TextEdit::singleline(&mut self.query).hint_text(hint).desired_width(f32::INFINITY));
+        let field = field.on_hover_text("A few letters of what you want to do");
         super::name(ui, &field, "Find an action");
         if ui.memory(|memory| memory.focused().is_none()) {
             field.request_focus();

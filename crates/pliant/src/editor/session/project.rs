@@ -21,6 +21,7 @@ impl Session {
     pub fn remember_in(&mut self, folder: &Path) {
         self.preferences = Preferences::load(folder);
         self.recent = self.preferences.get(crate::editor::recent::NAME);
+        self.habits = self.preferences.get("habits");
         self.options = self.preferences.get::<Options>("options").in_range();
         self.set_look(self.preferences.get::<Look>("look").in_range());
         if let Some(bytes) = self.preferences.get::<Option<usize>>("history_bytes") {
@@ -74,13 +75,16 @@ impl Session {
     }
 
     fn note_preferences(&mut self) {
-        let is_noted = self.noted.as_ref().is_some_and(|(options, look, budget, recent)| {
-            *options == self.options && *look == self.look && *budget == self.history_budget && *recent == self.recent
+        let is_noted = self.noted.as_ref().is_some_and(|(options, look, budget, recent, habits)| {
+            let is_same = *options == self.options && *look == self.look && *budget == self.history_budget;
+            is_same && *recent == self.recent && *habits == self.habits
         });
         if is_noted {
             return;
         }
-        self.noted = Some((self.options.clone(), self.look.clone(), self.history_budget, self.recent.clone()));
+        let (look, habits) = (self.look.clone(), self.habits.clone());
+        self.noted = Some((self.options.clone(), look, self.history_budget, self.recent.clone(), habits));
+        self.preferences.set("habits", &self.habits);
         self.preferences.set("options", &self.options);
         self.preferences.set("look", &self.look);
         self.preferences.set("history_bytes", &Some(self.history_budget));

@@ -53,7 +53,7 @@ fn result(ui: &mut Ui, trial: &mut Trial, asked: &mut Option<Asked>) {
                 ui.label(name);
             });
         });
-        if ui.small_button("other poses…").clicked() {
+        if ui.small_button("other poses…").on_hover_text("Choose poses anew, and learn again").clicked() {
             *asked = Some(Asked::Choose);
         }
     });
@@ -97,10 +97,12 @@ fn sliders(ui: &mut Ui, trial: &mut Trial) {
         }
     });
     ui.horizontal(|ui| {
-        ui.label("r from");
-        ui.add(DragValue::new(&mut low).range(*known.start()..=high).speed(0.05));
-        ui.label("to");
-        ui.add(DragValue::new(&mut high).range(low..=*known.end()).speed(0.05));
+        let from = ui.label("r from");
+        let value = ui.add(DragValue::new(&mut low).range(*known.start()..=high).speed(0.05));
+        value.labelled_by(from.id).on_hover_text("The smallest rigidity that is learned");
+        let to = ui.label("to");
+        let value = ui.add(DragValue::new(&mut high).range(low..=*known.end()).speed(0.05));
+        value.labelled_by(to.id).on_hover_text("The largest rigidity that is learned");
     });
     ui.horizontal(|ui| {
         let tip = "Single vertices take the rigidity that most of their neighbors have, so many times";
@@ -148,7 +150,7 @@ fn check(
     if let Some((done, left)) = checking {
         ui.label("Predicting each pose from the others…");
         bar(ui, done, left);
-        if ui.button("Cancel the check").clicked() {
+        if ui.button("Cancel the check").on_hover_text("Stop checking; what was learned stays").clicked() {
             *asked = Some(Asked::StopCheck);
         }
         return;
