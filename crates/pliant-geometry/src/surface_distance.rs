@@ -184,9 +184,10 @@ impl Question {
                 continue;
             };
             let corner = ids.iter().position(|&id| id == v).unwrap_or(0);
-            for (b, c) in [((corner + 1) % 3, (corner + 2) % 3), ((corner + 2) % 3, (corner + 1) % 3)] {
-                let lengths =
-                    [(corner, b), (corner, c), (b, c)].map(|(i, j)| at[i].as_dvec3().distance(at[j].as_dvec3()));
+            let (b, c) = ((corner + 1) % 3, (corner + 2) % 3);
+            let length = |i: usize, j: usize| at[i].as_dvec3().distance(at[j].as_dvec3());
+            let (to_b, to_c, between) = (length(corner, b), length(corner, c), length(b, c));
+            for (b, c, lengths) in [(b, c, [to_b, to_c, between]), (c, b, [to_c, to_b, between])] {
                 let through = self.visited(ids[b]).and_then(|known| across(lengths, distance, known));
                 let reached = through.unwrap_or(distance + lengths[1]);
                 if reached <= radius || distance <= radius {

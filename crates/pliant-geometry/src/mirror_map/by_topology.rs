@@ -16,7 +16,7 @@ use std::collections::HashMap;
 /// Middle edges that are tried, the likeliest first; wrong ones differ after a few triangles. By eye.
 const MOST_SEEDS: usize = 4096;
 /// All trials together may meet this many times the triangles of the mesh: a few seconds for a million. By eye.
-const MOST_ROUNDS: usize = 8;
+const MOST_ROUNDS: usize = 4;
 /// Triangles of a piece off the middle that are tried, in order; the first is right unless places are crowded. By eye.
 const MOST_TRIES_BY_PLACE: usize = 8;
 

@@ -42,6 +42,12 @@ impl Growth {
         self.question.march(&surface, self.radius, most)
     }
 
+    /// The distance of a vertex, if the front has come to it.
+    pub fn distance(&self, v: u32) -> Option<f32> {
+        let mark = self.question.marks.get(v as usize)?;
+        (mark.epoch == self.question.epoch).then_some(mark.distance as f32)
+    }
+
     /// Vertices the front has come to, with their distances, in no order. Some lie beyond the radius.
     pub fn reached(&self) -> impl Iterator<Item = (u32, f32)> + '_ {
         self.question.touched.iter().map(|&v| (v, self.question.marks[v as usize].distance as f32))

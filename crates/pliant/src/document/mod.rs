@@ -19,7 +19,7 @@ mod scene;
 mod state;
 
 pub use commands::{Command, CommandError, SelectMode};
-pub use fill::region_of_equal_rigidity;
+pub use fill::{region_by_selection, region_of_equal_rigidity, region_of_faces, region_of_part, region_of_piece};
 pub use findings::{Finding, caution, findings};
 pub use group::{ActiveGroups, Group, GroupId, GroupKind, held_by};
 pub use history::{History, Snapshot};

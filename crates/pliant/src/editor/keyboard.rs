@@ -3,7 +3,6 @@
 use egui::{Event, Key, Modifiers};
 
 use super::{Action, Session};
-use crate::tools::Options;
 
 /// Two digits typed within this time, with nothing else between, are one number. By hand: slow typing takes half of it.
 const TYPED_TOGETHER_SECS: f64 = 0.6;
@@ -99,8 +98,6 @@ fn brush_radius(ctx: &egui::Context, session: &mut Session) {
     let (held, delta) =
         ctx.input(|input| (input.key_down(Key::F) && input.modifiers.is_none(), input.pointer.delta().x));
     if held && delta != 0.0 {
-        let range = Options::BRUSH_RADIUS_PX;
-        let radius = session.options.brush_radius_px + delta * 0.5;
-        session.options.brush_radius_px = radius.clamp(*range.start(), *range.end());
+        session.options.drag_brush(delta);
     }
 }

@@ -15,6 +15,7 @@ mod open;
 mod opening;
 mod panels;
 mod preferences;
+mod preparing;
 mod recent;
 mod restored;
 mod samples;

@@ -4,6 +4,7 @@
 mod compare;
 mod hints;
 mod method;
+mod paint;
 mod project;
 mod views;
 
@@ -16,6 +17,7 @@ use pliant_meshfile::{OpenOptions, Welding};
 use pliant_solver::{Rigidity, VertexId};
 
 use super::jobs::{Jobs, Opened};
+use super::preparing::Preparing;
 use super::{
     Autosave, Habits, Job, JobEvent, Learning, Leftover, Look, NoticeKind, Notices, Open, Preferences, Recent, Sample,
     Shown, Status, Trial, Welcome,
@@ -49,6 +51,7 @@ pub struct Session {
     viewport_size: Vec2,
     worker: Worker,
     jobs: Jobs,
+    preparing: Preparing,
     sent: Option<(u64, Option<Measure>)>,
     welcome: Option<Welcome>,
     /// What lasts from one start to the next.
@@ -89,6 +92,7 @@ impl Session {
             wake: wake.clone(),
             viewport_size: Vec2::new(800.0, 600.0),
             worker: Worker::start(move || wake_worker())?,
+            preparing: Preparing::new(wake.clone()),
             jobs: Jobs::new(wake),
             sent: None,
             welcome: None,
@@ -153,6 +157,7 @@ impl Session {
             self.notices.push(NoticeKind::Warning, warning.clone());
         }
         self.options.fit_patch(f64::from(opened.model.diagonal()), opened.model.mean_edge());
+        self.options.paint.fit(f64::from(opened.model.diagonal()), opened.model.mean_edge());
         self.tool = self.tool_kind.new_tool();
         self.status = Status::default();
         self.learning = None;
@@ -168,6 +173,7 @@ impl Session {
 
     /// Takes what the solver and the jobs have to say. Returns requests for the window: paths chosen in dialogs.
     pub fn poll(&mut self) -> Vec<JobEvent> {
+        self.prepare();
         if let Some(report) = self.worker.poll() {
             self.take_report(report);
         }
@@ -310,10 +316,16 @@ impl Session {
 
     /// Passes input to the tool in hand and carries out what it wants.
     pub fn input(&mut self, input: Input) {
+        self.prepare();
         let Some(open) = &mut self.open else { return };
         let view = View { camera: open.camera, size: self.viewport_size };
-        let mut context =
-            Context { document: &open.document, view, surface: &mut open.surface, options: &self.options };
+        let mut context = Context {
+            document: &open.document,
+            view,
+            surface: &mut open.surface,
+            options: &self.options,
+            prepared: &self.preparing.ready,
+        };
         let reaction = self.tool.handle(input, &mut context);
         if let Some(r) = reaction.rigidity {
             self.options.rigidity = r;
@@ -328,7 +340,13 @@ impl Session {
     pub fn with_tool<T>(&mut self, ask: impl FnOnce(&dyn Tool, &Context<'_>) -> T) -> Option<T> {
         let open = self.open.as_mut()?;
         let view = View { camera: open.camera, size: self.viewport_size };
-        let context = Context { document: &open.document, view, surface: &mut open.surface, options: &self.options };
+        let context = Context {
+            document: &open.document,
+            view,
+            surface: &mut open.surface,
+            options: &self.options,
+            prepared: &self.preparing.ready,
+        };
         Some(ask(&*self.tool, &context))
     }
 

@@ -34,6 +34,9 @@ enum Gesture {
 /// A set of vertices, out of how many, and one flag for each.
 type Flags = Option<(Selection, usize, Arc<[bool]>)>;
 
+/// What decides what a resting pointer means: the tool, the surface, the camera, and the stamp of everything else.
+type Hovered = (ToolKind, *const SurfaceFrame, Camera, (u64, u64, usize));
+
 /// Values that are made anew only when their source changed.
 #[derive(Default)]
 struct Cache {
@@ -56,8 +59,8 @@ pub(super) struct ViewportPanel {
     /// The button that began the gesture: only its release ends it.
     button: Option<PointerButton>,
     pointer: Option<Pos2>,
-    /// What lay under the pointer when the tool last heard of it: the tool, the surface and the camera.
-    hovered: Option<(ToolKind, *const SurfaceFrame, Camera)>,
+    /// What lay under the pointer when the tool last heard of it.
+    hovered: Option<Hovered>,
     cache: Cache,
     /// What the last picture showed.
     shown: Option<ViewScene>,
@@ -181,6 +184,13 @@ impl ViewportPanel {
         if is_over {
             self.hover_again(ui.input(|input| input.modifiers), rect, session);
         }
+        if self.gesture == Some(Gesture::Tool)
+            && session.tool_is_behind()
+            && let Some(pos) = self.pointer
+        {
+            session.input(Input::Drag(pointer(pos, ui.input(|input| input.modifiers), rect)));
+            ui.ctx().request_repaint();
+        }
         let factor = (scroll * ZOOM_PER_POINT).exp() * pinch;
         // A drag of the tool measures from where it began, under the camera of that moment.
         if is_over
@@ -197,7 +207,7 @@ impl ViewportPanel {
     fn hover_again(&mut self, keys: egui::Modifiers, rect: Rect, session: &mut Session) {
         let (None, Some(pos), Some(open)) = (self.gesture, self.pointer, session.open()) else { return };
         let report = session.status.report.as_ref();
-        let now = (session.tool_kind(), Arc::as_ptr(open.surface.frame()), open.camera);
+        let now = (session.tool_kind(), Arc::as_ptr(open.surface.frame()), open.camera, session.hover_stamp());
         if self.hovered != Some(now) && report.is_none_or(|report| report.state != SolveState::Iterating) {
             self.hovered = Some(now);
             session.input(Input::Hover(pointer(pos, keys, rect)));

@@ -6,17 +6,24 @@
 mod brush;
 mod fill;
 mod gizmo;
+mod grow;
+mod mirror;
 mod mouse;
 mod options;
+mod paint_options;
 mod place;
+mod prepared;
 mod region;
 mod select;
 mod surface;
 mod tool;
 
 pub use gizmo::{Gizmo, GizmoPart};
+pub use mirror::{Mirror, MirrorKind, MirrorOptions};
 pub use mouse::{Gesture, VIEW_GESTURES};
 pub use options::{BrushMode, Options, SelectShape};
+pub use paint_options::{BrushReach, BrushUnit, FillBoundary, PaintOptions};
+pub use prepared::Prepared;
 pub use surface::{Pick, Surface};
 pub use tool::{Context, Cursor, Input, Marks, Modifiers, Pointer, Reaction, Tool, ToolKey, View};
 
@@ -61,7 +68,7 @@ impl ToolKind {
             ToolKind::Anchor => "Click the surface to hold it where it is",
             ToolKind::Select => "Drag a box or lasso around vertices to make handles, anchors or fills of them",
             ToolKind::Brush => "Paint how stiff the surface is",
-            ToolKind::Fill => "Fill the selection, or a region of equal rigidity",
+            ToolKind::Fill => "Click to fill a region with rigidity, or drag to spread it from a point",
         }
     }
 

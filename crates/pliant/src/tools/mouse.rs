@@ -35,10 +35,13 @@ impl ToolKind {
             ],
             ToolKind::Brush => &[
                 ("Drag over the surface", "paint the current rigidity"),
-                ("Ctrl while painting", "softer"),
+                ("Ctrl while painting", "softer, or unlock"),
                 ("Shift while painting", "smooth"),
             ],
-            ToolKind::Fill => &[("Click the surface", "fill the selection, or the region of equal rigidity")],
+            ToolKind::Fill => &[
+                ("Click the surface", "fill the region that is shown"),
+                ("Drag over the surface", "fill around the pressed point, as far as the drag"),
+            ],
         }
     }
 }

@@ -4,6 +4,8 @@
 use pliant_solver::Rigidity;
 use serde::{Deserialize, Serialize};
 
+use super::PaintOptions;
+
 /// What a brush dab does to r.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -16,6 +18,8 @@ pub enum BrushMode {
     Softer,
     /// The mean of the neighbors.
     Smooth,
+    /// Locks what it touches; unlocks with Ctrl.
+    Lock,
 }
 
 /// What a drag of the select tool draws.
@@ -38,6 +42,8 @@ pub struct Options {
     pub brush_mode: BrushMode,
     /// Brush radius on screen, in points.
     pub brush_radius_px: f32,
+    /// More for brush and fill.
+    pub paint: PaintOptions,
     /// Rings of vertices around the clicked one that become a handle or anchor; 0 is the vertex alone.
     pub patch_rings: u16,
     /// Box or lasso.
@@ -65,6 +71,7 @@ impl Options {
         self.rigidity = self.rigidity.clamp(1, Rigidity::MAX);
         self.brush_radius_px = self.brush_radius_px.clamp(*radius.start(), *radius.end());
         self.patch_rings = self.patch_rings.min(Options::MOST_PATCH_RINGS);
+        self.paint = self.paint.in_range();
         self
     }
 
@@ -79,6 +86,7 @@ impl Default for Options {
             rigidity: 6,
             brush_mode: BrushMode::Set,
             brush_radius_px: 36.0,
+            paint: PaintOptions::default(),
             patch_rings: 2,
             select_shape: SelectShape::Box,
             show_gizmo: true,

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use glam::{Vec2, Vec3};
-use pliant_geometry::{Bvh, Ray, SurfaceDistance};
+use pliant_geometry::{Bvh, Growth, Ray, SurfaceDistance};
 use pliant_solver::VertexId;
 
 use super::View;
@@ -96,6 +96,16 @@ impl Surface {
     /// Vertices within `radius` of a picked point along the surface, with their distance.
     pub fn within(&mut self, pick: &Pick, radius: f32) -> Vec<(u32, f32)> {
         self.distance.within(&self.frame.positions, &self.triangles, pick.triangle, pick.position, radius)
+    }
+
+    /// A front that leaves a picked point and can be sent on as far as needed.
+    pub fn growth(&self, pick: &Pick) -> Option<Growth> {
+        self.distance.growth(&self.frame.positions, &self.triangles, pick.triangle, pick.position)
+    }
+
+    /// The triangles, shared with the picture.
+    pub fn triangles(&self) -> &Arc<[[u32; 3]]> {
+        &self.triangles
     }
 
     fn refit(&mut self) {

@@ -2,7 +2,7 @@
 
 use glam::Vec2;
 
-use super::{Options, Surface};
+use super::{Options, Prepared, Surface};
 use crate::document::{Command, Document};
 use crate::viewport::{Camera, Dot, Line, Preview};
 
@@ -71,6 +71,8 @@ pub struct Context<'a> {
     pub surface: &'a mut Surface,
     /// Settings.
     pub options: &'a Options,
+    /// What was found in the background.
+    pub prepared: &'a Prepared,
 }
 
 /// What a tool wants done.
@@ -126,4 +128,8 @@ pub trait Tool: Send {
     fn cursor(&self) -> Cursor;
     /// Whether a drag or stroke is under way.
     fn is_active(&self) -> bool;
+    /// Whether it has more to do for the drag it was last told of, and wants to be told again.
+    fn is_behind(&self) -> bool {
+        false
+    }
 }

@@ -8,6 +8,7 @@ mod learning;
 mod monkey;
 mod painting;
 mod projects;
+mod regions;
 mod views;
 
 use std::path::Path;

@@ -45,6 +45,7 @@ fn act(session: &mut Session, dice: &mut Dice) {
         _ => {
             session.choose_rigidity(1 + dice.below(8) as u16);
             session.options.select_through = dice.below(2) == 0;
+            paint_otherwise(session, dice);
             session.options.patch_rings = dice.below(4) as u16;
             if let Some(open) = session.open_mut() {
                 open.camera.orbit(Vec2::new(dice.below(40) as f32, dice.below(40) as f32));
@@ -54,6 +55,20 @@ fn act(session: &mut Session, dice: &mut Dice) {
     session.poll();
     if dice.below(8) == 0 {
         std::thread::sleep(Duration::from_millis(1)); // lets the solver get a word in
+    }
+}
+
+fn paint_otherwise(session: &mut Session, dice: &mut Dice) {
+    use pliant::tools::{BrushReach, FillBoundary, MirrorKind};
+    let paint = &mut session.options.paint;
+    paint.boundary = FillBoundary::ALL[dice.below(5) as usize].0;
+    paint.reach = [BrushReach::Surface, BrushReach::Front, BrushReach::Through][dice.below(3) as usize];
+    paint.mirror.kind = [MirrorKind::Off, MirrorKind::Plane, MirrorKind::Topology][dice.below(3) as usize];
+    match dice.below(6) {
+        0 => session.lock_current_rigidity(true),
+        1 => session.lock_all(false),
+        2 => session.options.brush_mode = BrushMode::Lock,
+        _ => session.options.brush_mode = BrushMode::Set,
     }
 }
 

@@ -29,7 +29,7 @@ fn front_only_selection_leaves_the_far_side_in_both_projections() {
 }
 
 /// An octahedron, each face cut into 64 and pushed out to radius 1.
-fn ball() -> MeshFile {
+pub(super) fn ball() -> MeshFile {
     let corners = [DVec3::X, DVec3::Y, DVec3::Z, -DVec3::X, -DVec3::Y, -DVec3::Z];
     let faces = [[0, 1, 2], [1, 3, 2], [3, 4, 2], [4, 0, 2], [1, 0, 5], [3, 1, 5], [4, 3, 5], [0, 4, 5]];
     let n = 8;

@@ -2,7 +2,7 @@
 
 use egui::{CollapsingHeader, RichText, ScrollArea, Ui};
 
-use super::{history, mesh_section, paint, sections, solver, view, weld};
+use super::{history, mesh_section, mirror, paint, sections, solver, view, weld};
 use crate::editor::{Action, Session};
 use crate::tools::ToolKind;
 
@@ -21,7 +21,7 @@ pub(in crate::editor) fn inspector(ui: &mut Ui, session: &mut Session) -> Option
             ToolKind::Handle | ToolKind::Anchor => sections::patch(ui, session),
             ToolKind::Select => sections::select(ui, session, &mut chosen),
             ToolKind::Brush => paint::brush(ui, session),
-            ToolKind::Fill => {}
+            ToolKind::Fill => paint::fill(ui, session),
         }
         let about_rigidity = matches!(kind, ToolKind::Brush | ToolKind::Fill);
         if about_rigidity {
@@ -29,7 +29,10 @@ pub(in crate::editor) fn inspector(ui: &mut Ui, session: &mut Session) -> Option
             paint::rigidity(ui, session, &mut chosen);
         }
         ui.separator();
-        if !about_rigidity {
+        if about_rigidity {
+            section(ui, "Mirror", true, |ui| mirror::mirror(ui, session, &mut chosen));
+            section(ui, "Locks", true, |ui| paint::locks(ui, session, &mut chosen));
+        } else {
             section(ui, "Rigidity", true, |ui| paint::rigidity(ui, session, &mut chosen));
         }
         section(ui, "Handles", true, |ui| sections::handles(ui, session, &mut chosen));

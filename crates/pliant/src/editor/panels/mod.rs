@@ -11,6 +11,7 @@ mod learn;
 mod legend;
 mod menu;
 mod mesh_section;
+mod mirror;
 mod notices;
 mod paint;
 mod palette;
