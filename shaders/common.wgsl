@@ -9,6 +9,8 @@ struct Picture {
     viewport: vec4f,
     // 1 = orthographic, 1 = flat shading, wire half width px, smallest distance in front of the eye
     modes: vec4f,
+    // opacity where one looks straight at the surface, number of the matcap (0 = lamps), how much the ramp covers a texture, unused
+    look: vec4f,
     // sRGB
     background_top: vec4f,
     background_bottom: vec4f,
@@ -20,6 +22,8 @@ struct Picture {
     sky: vec4f,
     ground: vec4f,
     rim: vec4f,
+    // faces that pass through others
+    flaw: vec4f,
     // sRGB; alpha: opacity
     wire: vec4f,
     grid_color: vec4f,

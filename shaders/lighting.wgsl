@@ -9,7 +9,7 @@ const KEY_WRAP = 0.28;
 const SPECULAR = 0.16;
 
 struct Lit {
-    @builtin(position) clip: vec4f,
+    @invariant @builtin(position) clip: vec4f,
     @location(0) view: vec3f,
     @location(1) normal: vec3f,
     // linear color; alpha: how much selected
@@ -61,16 +61,14 @@ fn power_32(x: f32) -> f32 {
     return x16 * x16;
 }
 
-// Light leaving the surface toward the eye, linear.
-fn shade(in: Lit, front: bool) -> vec3f {
-    let eye = toward_eye(in.view);
-    let normal = shading_normal(in, eye, front);
+// Color of the surface itself, linear: what the vertices say, selection over it, and the tint of the inside.
+fn albedo(in: Lit, front: bool) -> vec3f {
+    let selected = mix(in.color.rgb, picture.accent.rgb, in.color.a * picture.accent.a * hatching(in.clip.xy));
+    return select(mix(selected, picture.back_tint.rgb, picture.back_tint.a), selected, front);
+}
 
-    var albedo = mix(in.color.rgb, picture.accent.rgb, in.color.a * picture.accent.a * hatching(in.clip.xy));
-    if !front {
-        albedo = mix(albedo, picture.back_tint.rgb, picture.back_tint.a);
-    }
-
+// Light of the lamps leaving the surface toward the eye, linear.
+fn lamps(albedo: vec3f, normal: vec3f, eye: vec3f, front: bool) -> vec3f {
     let world_up = normalize(picture.view_from_world[1].xyz);
     let up = 0.5 + 0.5 * dot(normal, world_up);
     var light = mix(picture.ground.rgb, picture.sky.rgb, up);
@@ -82,4 +80,24 @@ fn shade(in: Lit, front: bool) -> vec3f {
     let halfway = normalize(eye + KEY_DIRECTION);
     let gloss = select(0.3, 1.0, front) * SPECULAR * power_32(max(dot(normal, halfway), 0.0));
     return albedo * light + rim + picture.key.rgb * gloss;
+}
+
+// What leaves the surface toward the eye: sRGB, and how much it hides what is behind. A see-through surface hides more where
+// one looks along it, so that its outline stays.
+fn shade_as(color: vec3f, in: Lit, front: bool) -> vec4f {
+    let eye = toward_eye(in.view);
+    let normal = shading_normal(in, eye, front);
+    var light = vec3f(0.0);
+    if picture.look.y > 0.5 {
+        light = matcap(color, normal, eye);
+    } else {
+        light = lamps(color, normal, eye, front);
+    }
+    let grazing = 1.0 - max(dot(normal, eye), 0.0);
+    let opacity = mix(picture.look.x, 1.0, 0.7 * grazing * grazing * grazing);
+    return vec4f(srgb_from_linear(light), select(opacity, 1.0, picture.look.x >= 1.0));
+}
+
+fn shade(in: Lit, front: bool) -> vec4f {
+    return shade_as(albedo(in, front), in, front);
 }

@@ -5,8 +5,12 @@
 //! adaptive predicates, crate `robust`), so the answer does not depend on rounding, order or scale.
 //!
 //! Touching is not crossing: a vertex or edge that only reaches a plane, edges that meet in a point, triangles that
-//! overlap within one plane, and triangles without area all give some sign of zero and are not counted. Neighbors are left
-//! out: triangles with a common vertex number always touch there.
+//! overlap within one plane, and triangles without area all give some sign of zero and are not counted.
+//!
+//! Neighbors touch where they meet, which gives zeros as well: two triangles with one common vertex cross when the edge across
+//! from it pierces the other, and two with a common edge never do. [`crossings`] leaves out all neighbors, as is
+//! usual in counts that are compared; [`crossings_of_all`] looks at those with one common vertex too, where a surface that
+//! folds sharply crosses itself first.
 
 use crate::bounds::{Bounds, corners_f64};
 use crate::tree::Tree;
@@ -14,10 +18,36 @@ use glam::DVec3;
 use rayon::prelude::*;
 use robust::{Coord3D, orient3d};
 
+/// Triangles looked at between two questions whether to go on: about a millisecond.
+const PIECE: usize = 512;
+
 /// Pairs of triangles without a common vertex that cross, lower number first, sorted.
 pub fn crossings(positions: &[DVec3], triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
+    pairs(positions, triangles, 0, &|| true).unwrap_or_default()
+}
+
+/// Pairs of triangles with at most one common vertex that cross, lower number first, sorted. Asks `go_on` every
+/// few milliseconds; `None` once it says no.
+pub fn crossings_of_all(
+    positions: &[DVec3],
+    triangles: &[[u32; 3]],
+    go_on: &(dyn Fn() -> bool + Sync),
+) -> Option<Vec<[u32; 2]>> {
+    pairs(positions, triangles, 1, go_on)
+}
+
+/// Pairs of triangles with at most so many common vertices that cross.
+fn pairs(
+    positions: &[DVec3],
+    triangles: &[[u32; 3]],
+    most_shared: usize,
+    go_on: &(dyn Fn() -> bool + Sync),
+) -> Option<Vec<[u32; 2]>> {
     let boxes: Vec<Bounds> =
         triangles.par_iter().map(|&t| corners_f64(positions, t).map_or(Bounds::EMPTY, Bounds::around_f64)).collect();
+    if !go_on() {
+        return None;
+    }
     let tree = Tree::new(&boxes);
     let crossed_by = |first: u32| {
         let mut found = Vec::new();
@@ -28,7 +58,7 @@ pub fn crossings(positions: &[DVec3], triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
         tree.for_each_near(bounds, |second| {
             let wanted = second > first
                 && boxes[second as usize].overlaps(bounds)
-                && !share_a_vertex(triangles[first as usize], triangles[second as usize]);
+                && n_shared(triangles[first as usize], triangles[second as usize]) <= most_shared;
             let other = wanted.then(|| corners_f64(positions, triangles[second as usize])).flatten();
             if other.is_some_and(|other| cross(corners, other)) {
                 found.push([first, second]);
@@ -37,11 +67,18 @@ pub fn crossings(positions: &[DVec3], triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
         found.sort_unstable();
         found
     };
-    (0..triangles.len() as u32).into_par_iter().with_min_len(64).flat_map_iter(crossed_by).collect()
+    let n = triangles.len();
+    let piece = |k: usize| {
+        let range = if go_on() { k * PIECE..((k + 1) * PIECE).min(n) } else { 0..0 };
+        range.flat_map(|first| crossed_by(first as u32)).collect::<Vec<_>>()
+    };
+    let found = (0..n.div_ceil(PIECE)).into_par_iter().flat_map_iter(piece).collect();
+    go_on().then_some(found)
 }
 
-fn share_a_vertex(a: [u32; 3], b: [u32; 3]) -> bool {
-    a.iter().any(|v| b.contains(v))
+/// How many corners of one triangle are corners of the other.
+fn n_shared(a: [u32; 3], b: [u32; 3]) -> usize {
+    a.iter().filter(|v| b.contains(v)).count()
 }
 
 fn cross(a: [DVec3; 3], b: [DVec3; 3]) -> bool {
@@ -86,12 +123,12 @@ mod tests {
     use super::*;
     use crate::test_shapes::{Noise, soup, torus};
 
-    fn brute_force(positions: &[DVec3], triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
+    fn brute_force(positions: &[DVec3], triangles: &[[u32; 3]], most_shared: usize) -> Vec<[u32; 2]> {
         let mut found = Vec::new();
         for i in 0..triangles.len() {
             for j in i + 1..triangles.len() {
                 let [a, b] = [i, j].map(|t| triangles[t].map(|v| positions[v as usize]));
-                if !share_a_vertex(triangles[i], triangles[j]) && cross(a, b) {
+                if n_shared(triangles[i], triangles[j]) <= most_shared && cross(a, b) {
                     found.push([i as u32, j as u32]);
                 }
             }
@@ -105,7 +142,9 @@ mod tests {
             let (positions, triangles) = soup(n, 0.25, &mut Noise(n as u64 + 7));
             let positions: Vec<DVec3> = positions.iter().map(|p| p.as_dvec3()).collect();
             let got = crossings(&positions, &triangles);
-            assert_eq!(got, brute_force(&positions, &triangles), "{n} triangles");
+            assert_eq!(got, brute_force(&positions, &triangles, 0), "{n} triangles");
+            let of_all = crossings_of_all(&positions, &triangles, &|| true).expect("not stopped");
+            assert_eq!(of_all, brute_force(&positions, &triangles, 1), "{n} triangles with neighbors");
             assert!(n < 700 || got.len() > 50, "too few to mean anything: {}", got.len());
         }
     }
@@ -127,7 +166,7 @@ mod tests {
         let overlapping = crossings(&positions, &triangles);
         assert!(overlapping.len() > 20, "{} pairs", overlapping.len());
         assert!(overlapping.iter().all(|&[a, b]| a < n * 2 && b >= n * 2), "each pair takes one of either ring");
-        assert_eq!(overlapping, brute_force(&positions, &triangles));
+        assert_eq!(overlapping, brute_force(&positions, &triangles, 0));
     }
 
     #[test]
@@ -147,6 +186,50 @@ mod tests {
         let through = [DVec3::new(1.0, 1.0, -1.0), DVec3::new(1.0, 1.0, 1e-300), DVec3::new(1.5, -9.0, -1.0)];
         let positions: Vec<DVec3> = floor.into_iter().chain(through).collect();
         assert_eq!(crossings(&positions, &[[0, 1, 2], [3, 4, 5]]), [[0, 1]], "by a hair");
+    }
+
+    #[test]
+    fn a_crumpled_sheet_crosses_itself_where_all_pairs_say() {
+        let mut noise = Noise(5);
+        let (flat, triangles) = crate::test_shapes::square(14, 0.3, &mut noise);
+        let positions: Vec<DVec3> = flat.iter().map(|&p| (p * 0.4 + noise.point() * 0.05).as_dvec3()).collect();
+        let got = crossings_of_all(&positions, &triangles, &|| true).expect("not stopped");
+        assert_eq!(got, brute_force(&positions, &triangles, 1));
+        let near = got.iter().filter(|&&[a, b]| n_shared(triangles[a as usize], triangles[b as usize]) == 1).count();
+        assert!(near > 5 && got.len() > near, "{near} of {} pairs are neighbors", got.len());
+        // An exact answer is the same for any order of corners and triangles.
+        let turned: Vec<[u32; 3]> = triangles.iter().map(|&[a, b, c]| [c, a, b]).collect();
+        assert_eq!(crossings_of_all(&positions, &turned, &|| true).as_ref(), Some(&got));
+    }
+
+    #[test]
+    fn neighbors_cross_when_one_pierces_the_other_and_not_when_they_only_meet() {
+        let fixed = [DVec3::ZERO, DVec3::X * 4.0, DVec3::Y * 4.0];
+        // With the common vertex at the origin: the far edge through the inside, past it, and up to the edge.
+        for (name, far, expected) in [
+            ("through the inside", [DVec3::new(1.0, 1.0, 1.0), DVec3::new(1.0, 1.0, -1.0)], true),
+            ("past it", [DVec3::new(3.0, 3.0, 1.0), DVec3::new(3.0, 3.0, -1.0)], true),
+            ("beside it", [DVec3::new(-1.0, -1.0, 1.0), DVec3::new(-1.0, -1.0, -1.0)], false),
+            ("on its edge", [DVec3::new(2.0, 0.0, 1.0), DVec3::new(2.0, 0.0, -1.0)], false),
+            ("above it", [DVec3::new(1.0, 1.0, 1.0), DVec3::new(2.0, 1.0, 0.5)], false),
+        ] {
+            let positions: Vec<DVec3> = fixed.into_iter().chain(far).collect();
+            let found = crossings_of_all(&positions, &[[0, 1, 2], [0, 3, 4]], &|| true).expect("not stopped");
+            assert_eq!(found.len(), usize::from(expected), "{name}");
+            assert!(crossings(&positions, &[[0, 1, 2], [0, 3, 4]]).is_empty(), "{name}: neighbors are left out");
+        }
+        let folded = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::new(0.3, 0.3, 0.0)];
+        let found = crossings_of_all(&folded, &[[0, 1, 2], [0, 1, 3]], &|| true).expect("not stopped");
+        assert!(found.is_empty(), "folded over a common edge");
+    }
+
+    #[test]
+    fn a_search_that_is_no_longer_wanted_ends_without_an_answer() {
+        let (positions, triangles) = torus(1.0, 0.3, 200, 60);
+        assert_eq!(crossings_of_all(&positions, &triangles, &|| false), None);
+        let asked = std::sync::atomic::AtomicUsize::new(0);
+        let a_few = || asked.fetch_add(1, std::sync::atomic::Ordering::Relaxed) < 5;
+        assert_eq!(crossings_of_all(&positions, &triangles, &a_few), None);
     }
 
     #[test]

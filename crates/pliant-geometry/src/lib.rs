@@ -9,7 +9,7 @@
 //! | object | built once | each question |
 //! |---|---|---|
 //! | [`Bvh`] | O(n log n) | [`refit`](Bvh::refit) O(n); a ray O(log n) |
-//! | [`crossings()`] | – | O(n log n) plus the pairs of boxes that overlap |
+//! | [`crossings()`], [`crossings_of_all`] | – | O(n log n) plus the pairs of boxes that overlap |
 //! | [`FacePatches`] | O(n) | – |
 //! | [`MirrorMap`] | O(n log n) | O(1) |
 //! | [`edge_stretch`], [`largest_difference`] | – | O(n) |
@@ -36,7 +36,7 @@ mod vertex_normals;
 mod test_shapes;
 
 pub use bvh::Bvh;
-pub use crossings::crossings;
+pub use crossings::{crossings, crossings_of_all};
 pub use face_patches::FacePatches;
 pub use measures::{edge_stretch, largest_difference};
 pub use mirror_map::{MirrorMap, Plane, Seam, Uneven};

@@ -23,6 +23,10 @@ pub(crate) const CORNERS: u64 = 3 * TRIANGLES;
 /// Elements read from the accessors of one model: each triangle and vertex a few times over, since accessors may be
 /// shared and a file can name one of them any number of times.
 pub(crate) const ELEMENTS: u64 = 8 * TRIANGLES;
+/// Bytes of the pictures of one model, as they are stored.
+pub(crate) const PICTURE_BYTES: u64 = 256 << 20;
+/// Pictures of one model.
+pub(crate) const PICTURES: usize = 1024;
 /// Bytes of one part's name; a longer one is cut.
 pub(crate) const NAME_BYTES: usize = 1 << 10;
 /// Bytes of the names of all parts: one name can serve every part of a file.

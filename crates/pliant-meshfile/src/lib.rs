@@ -35,6 +35,7 @@ mod saving;
 mod shape;
 #[cfg(test)]
 mod tests;
+mod textures;
 mod watch;
 mod weld;
 
@@ -46,4 +47,5 @@ pub use pack::Pack;
 pub use rigidity::read_rigidity;
 pub use saving::{SaveOptions, replace_file};
 pub use shape::Part;
+pub use textures::{Picture, Run, Textures, Wrapping};
 pub use weld::{Weld, Welding};

@@ -6,7 +6,7 @@ use crate::pack::Original;
 use crate::saving::{self, Known, SaveOptions};
 use crate::shape::{NO_MATERIAL, Part};
 use crate::watch::Stage;
-use crate::{Fault, Format, SaveError, Warning, Weld, Welding, budget, files, normals, rigidity};
+use crate::{Fault, Format, SaveError, Textures, Warning, Weld, Welding, budget, files, normals, rigidity};
 use glam::{DQuat, DVec3, Vec2};
 use std::borrow::Cow;
 use std::ops::Range;
@@ -158,9 +158,15 @@ impl MeshFile {
         MeshFile::of(Format::Glb, opened, weld, Welding::Exact)
     }
 
-    /// Triangles that polygons of more than three corners were cut into, where the file has polygons.
-    pub(crate) fn polygons(&self) -> &[Range<u32>] {
+    /// Triangles that each polygon of more than three corners was cut into, ascending, where the file has polygons.
+    pub fn polygons(&self) -> &[Range<u32>] {
         self.source.polygons()
+    }
+
+    /// The pictures that the file lays on its surface, read now, still encoded. Nothing of them is kept here: saving leaves them as
+    /// they are in the file.
+    pub fn textures(&self) -> Textures {
+        self.source.textures(self.before())
     }
 
     /// How many poses the file holds besides its shape at most, told without reading them.
@@ -303,7 +309,12 @@ impl MeshFile {
         let of_vertex = self.weld.point_of_vertex.iter().map(|&point| point as usize);
         let positions = self.spread(points);
         let rigidity = rigidity.map(|r| of_vertex.map(|point| r[point]).collect());
-        let before = Before {
+        Ok(Edit { mesh: self.before(), positions, rigidity })
+    }
+
+    /// The mesh as it was opened.
+    fn before(&self) -> Before<'_> {
+        Before {
             positions: &self.positions,
             triangles: &self.triangles,
             weld: &self.weld,
@@ -311,8 +322,7 @@ impl MeshFile {
             uvs: &self.uvs,
             colors: &self.colors,
             parts: &self.parts,
-        };
-        Ok(Edit { mesh: before, positions, rigidity })
+        }
     }
 
     /// World positions of the file vertices for new places of the surface points.

@@ -17,6 +17,7 @@ mod ply;
 mod poses;
 mod stl;
 mod support;
+mod textures;
 mod welding;
 
 pub(crate) use mutation::{Numbers, mutated};

@@ -13,3 +13,4 @@ mod refusals;
 mod reports;
 mod shaders;
 mod viewport;
+mod views_window;

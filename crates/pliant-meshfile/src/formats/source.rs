@@ -3,6 +3,7 @@
 use crate::folder::Folder;
 use crate::saving::Unfinished;
 use crate::shape::{Part, Shape};
+use crate::textures::Textures;
 use crate::watch::Stage;
 use crate::{Fault, Format, SaveError, Warning, Weld};
 use glam::{DVec3, Vec2};
@@ -48,6 +49,11 @@ pub(crate) trait Source: Debug + Send + Sync {
     /// Where a polygon is cut depends on its shape, so that two poses of one mesh can differ there.
     fn polygons(&self) -> &[Range<u32>] {
         &[]
+    }
+
+    /// The pictures on the surface; none in formats without.
+    fn textures(&self, _mesh: Before<'_>) -> Textures {
+        Textures::default()
     }
 
     /// What keeps vertices apart that are at one place; none in formats without skins.

@@ -27,8 +27,12 @@ pub(super) fn run(options: &RenderOptions, console: &mut Console<'_>) -> Result<
     let file = surface::read(&options.mesh, options.weld, console)?;
     let chosen = rigidity::choose(options.rigidity.as_deref(), &file)?;
     let warnings = file.warnings.iter().map(ToString::to_string).chain(chosen.warning);
-    let warnings: Vec<String> = warnings.collect();
-    let scene = scene(&Model::from_file(file)?, chosen.rigidity.as_slice(), options.color);
+    let mut warnings: Vec<String> = warnings.collect();
+    let mut model = Model::from_file(file)?;
+    let n_known = model.warnings.len();
+    model.load_textures();
+    warnings.extend(model.warnings.split_off(n_known));
+    let scene = scene(&model, chosen.rigidity.as_slice(), options.color);
     console.progress(|| "drawing".to_owned());
     let drawn = picture(&scene, options.size)?;
     check_size(options.size, drawn.dimensions().into())?;
@@ -85,6 +89,7 @@ fn scene(model: &Model, rigidity: &[u16], color: ColorChoice) -> ViewScene {
     let camera = Camera::framing(model.bounds.0, model.bounds.1);
     ViewScene {
         base_colors: model.base_colors.clone(),
+        textures: model.textures.clone(),
         values: Some(vec![0.0; positions.len()].into()),
         rigidity: rigidity.into(),
         coloring,

@@ -14,9 +14,11 @@ mod method;
 mod model;
 mod motion;
 mod palette;
+mod polygons;
 mod scene;
 
 mod state;
+mod textures;
 
 pub use commands::{Command, CommandError, SelectMode};
 pub use fill::{region_by_selection, region_of_equal_rigidity, region_of_faces, region_of_part, region_of_piece};

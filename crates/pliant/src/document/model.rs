@@ -1,5 +1,6 @@
 //! What was opened and never changes while it is edited.
 
+use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -8,6 +9,8 @@ use pliant_meshfile::MeshFile;
 use pliant_solver::{Mesh, MeshError, Rigidity, RigidityError};
 
 use super::findings::{Finding, caution, findings};
+use super::{polygons, textures};
+use crate::viewport::TextureSet;
 
 /// An opened mesh: the file it came from and the surface the solver sees.
 ///
@@ -28,8 +31,12 @@ pub struct Model {
     pub origin: DVec3,
     /// Smallest and largest corner of the rest surface, in view space.
     pub bounds: (Vec3, Vec3),
+    /// Edges that only cut the file's polygons, as [`ViewScene::unmarked_edges`](crate::viewport::ViewScene) has them.
+    pub cut_edges: Option<Arc<[u8]>>,
     /// Base color of every surface point (linear RGBA8), when the file names any.
     pub base_colors: Option<Arc<[[u8; 4]]>>,
+    /// Pictures of the file on the surface, once [`Model::load_textures`] has read them.
+    pub textures: Option<Arc<TextureSet>>,
     /// What the user should know about the file, one sentence each.
     pub warnings: Vec<String>,
     /// What is unusual about the surface.
@@ -91,12 +98,23 @@ impl Model {
             rigidity,
             origin,
             bounds: ((lo - origin).as_vec3(), (hi - origin).as_vec3()),
-            base_colors: base_colors(&file, mesh.n_vertices()),
+            cut_edges: polygons::cuts(&file.triangles, file.polygons()),
+            base_colors: base_colors(&file),
+            textures: None,
             warnings,
             findings,
             mesh: Arc::new(mesh),
             file,
         })
+    }
+
+    /// Reads and decodes the file's pictures for the screen; those that cannot be shown are named in the warnings. Seconds for large
+    /// ones.
+    pub fn load_textures(&mut self) {
+        let decoded = textures::decode(&self.file);
+        self.textures = decoded.set;
+        self.base_colors = decoded.base_colors.or(self.base_colors.take());
+        self.warnings.extend(decoded.warning);
     }
 
     /// World position as seen by the camera.
@@ -138,7 +156,7 @@ pub(crate) fn bounds_of(points: &[DVec3]) -> (DVec3, DVec3) {
 }
 
 /// Vertex colors of the file, or the base color of the material of (one of) the faces around each point.
-fn base_colors(file: &MeshFile, n_points: usize) -> Option<Arc<[[u8; 4]]>> {
+fn base_colors(file: &MeshFile) -> Option<Arc<[[u8; 4]]>> {
     // One gray for everything says nothing: the picture's own clay looks better.
     let is_gray = |[r, g, b, _]: [f32; 4]| r == g && g == b;
     let plain = file.parts.windows(2).all(|pair| pair[0].base_color == pair[1].base_color)
@@ -146,10 +164,15 @@ fn base_colors(file: &MeshFile, n_points: usize) -> Option<Arc<[[u8; 4]]>> {
     if plain && file.colors.is_none() {
         return None;
     }
+    Some(colors_of(file, file.parts.iter().map(|part| (part.triangles.clone(), part.base_color))))
+}
+
+/// The colors of these ranges of triangles at every surface point, times the colors of the vertices.
+pub(super) fn colors_of(file: &MeshFile, parts: impl Iterator<Item = (Range<usize>, [f32; 4])>) -> Arc<[[u8; 4]]> {
     let mut of_vertex = vec![[1.0_f32; 4]; file.positions.len()];
-    for part in &file.parts {
-        for &v in file.triangles[part.triangles.clone()].as_flattened() {
-            of_vertex[v as usize] = part.base_color;
+    for (triangles, color) in parts {
+        for &v in file.triangles[triangles].as_flattened() {
+            of_vertex[v as usize] = color;
         }
     }
     if let Some(colors) = &file.colors {
@@ -157,9 +180,9 @@ fn base_colors(file: &MeshFile, n_points: usize) -> Option<Arc<[[u8; 4]]>> {
             *base = std::array::from_fn(|c| base[c] * color[c]);
         }
     }
-    let mut out = vec![[255_u8; 4]; n_points];
+    let mut out = vec![[255_u8; 4]; file.weld.n_points()];
     for (&point, color) in file.weld.point_of_vertex.iter().zip(&of_vertex) {
         out[point as usize] = color.map(|c| (c.clamp(0.0, 1.0) * 255.0).round() as u8);
     }
-    Some(out.into())
+    out.into()
 }

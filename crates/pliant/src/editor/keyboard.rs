@@ -2,6 +2,7 @@
 
 use egui::{Event, Key, Modifiers};
 
+use super::peek::Peek;
 use super::{Action, Session};
 
 /// Two digits typed within this time, with nothing else between, are one number. By hand: slow typing takes half of it.
@@ -15,6 +16,7 @@ const DIGITS: [Key; 10] =
 pub(super) struct Keyboard {
     /// The digit, and the window's time in seconds when it was typed.
     last_digit: Option<(u16, f64)>,
+    peek: Peek,
 }
 
 impl Keyboard {
@@ -34,6 +36,7 @@ impl Keyboard {
         if !egui::Popup::is_any_open(ctx) && ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {
             session.escape();
         }
+        self.peek.take(ctx, session);
         let actions = match ctx.memory(|memory| memory.focused()) {
             // A control that has the focus is worked with these keys.
             Some(focused) if Some(focused) != viewport => {

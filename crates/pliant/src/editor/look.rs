@@ -5,7 +5,7 @@ use pliant_solver::Rigidity;
 use serde::{Deserialize, Serialize};
 
 use crate::solving::Measure;
-use crate::viewport::{Shading, Theme};
+use crate::viewport::{Matcap, Shading, Theme};
 
 /// r at the stiff end of the color ramp: the paper's 6, or more if the surface has more.
 pub(super) fn ramp_max(rigidity: &Rigidity) -> u16 {
@@ -82,6 +82,16 @@ impl ColorBy {
     }
 }
 
+/// Every shading with its name and one sentence more, in the order of menus.
+pub(super) const SHADINGS: [(Shading, &str, &str); 6] = [
+    (Shading::Smooth, "Smooth", "Three soft lamps on a smooth surface"),
+    (Shading::Flat, "Flat", "The same lamps on single faces"),
+    (Shading::Matcap(Matcap::Clay), "Clay", "Warm modelling clay, lit alike from wherever one looks"),
+    (Shading::Matcap(Matcap::Porcelain), "Porcelain", "Glazed porcelain: sharp reflections show small bumps"),
+    (Shading::Matcap(Matcap::Metal), "Metal", "Brushed metal between sky and ground: shows how the form leans"),
+    (Shading::Matcap(Matcap::Stripes), "Stripes", "Reflected stripes: where they break, the surface is not smooth"),
+];
+
 /// Settings of the picture.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
@@ -96,6 +106,10 @@ pub struct Look {
     pub shading: Shading,
     /// Edges drawn over the surface.
     pub wireframe: bool,
+    /// The surface hides only little of what is behind it.
+    pub see_through: bool,
+    /// Faces that pass through others are looked for and pointed out.
+    pub crossings: bool,
     /// Ground grid.
     pub grid: bool,
     /// Dots of handles and anchors, and the gizmo.
@@ -108,6 +122,7 @@ impl Look {
     /// The same with every number in its range: what was stored may come from anywhere.
     pub fn in_range(mut self) -> Look {
         self.opacity = self.opacity.clamp(0.0, 1.0);
+        self.stiff_from = self.stiff_from.clamp(2, Rigidity::MAX);
         self
     }
 }
@@ -121,6 +136,8 @@ impl Default for Look {
             stiff_from: 3,
             shading: Shading::Smooth,
             wireframe: false,
+            see_through: false,
+            crossings: false,
             grid: true,
             handles: true,
             theme: Theme::Dark,

@@ -24,6 +24,7 @@ pub struct Open {
     pub project: Option<ProjectFile>,
     /// Where the mesh was last exported to, and what was.
     pub exported: Option<(PathBuf, Snapshot)>,
+    rest: Arc<SurfaceFrame>,
     normals: VertexNormals,
     shown_epoch: u64,
 }
@@ -35,6 +36,8 @@ impl Open {
         let camera = Camera::framing(model.bounds.0, model.bounds.1);
         let mut open = Open {
             document: Document::new(model),
+            // Nothing has moved it yet.
+            rest: surface.frame().clone(),
             surface,
             camera,
             project: None,
@@ -76,6 +79,11 @@ impl Open {
         let is_same = Arc::ptr_eq(&then.pose.positions, &self.document.pose().positions)
             && then.scene.rigidity == self.document.scene().rigidity;
         is_same.then_some(path)
+    }
+
+    /// The surface before it was bent.
+    pub fn rest(&self) -> &Arc<SurfaceFrame> {
+        &self.rest
     }
 
     /// Shows a pose that has jumped since the last look, without waiting for the solver.

@@ -55,7 +55,11 @@ impl Opening {
         if self.is_stopped() {
             return ControlFlow::Break(());
         }
-        ControlFlow::Continue(file.map_err(ModelError::from).and_then(Model::from_file))
+        let mut model = file.map_err(ModelError::from).and_then(Model::from_file);
+        if let Ok(model) = &mut model {
+            model.load_textures();
+        }
+        ControlFlow::Continue(model)
     }
 
     /// Reads a project; a break when it was stopped.
@@ -65,7 +69,10 @@ impl Opening {
         choice: &MeshChoice,
         wake: &(dyn Fn() + Send + Sync),
     ) -> ControlFlow<(), Result<Loaded, ProjectError>> {
-        let loaded = project::open(path, choice, &mut self.progress(wake));
+        let mut loaded = project::open(path, choice, &mut self.progress(wake));
+        if let Ok(loaded) = &mut loaded {
+            loaded.model.load_textures();
+        }
         if self.is_stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(loaded) }
     }
 

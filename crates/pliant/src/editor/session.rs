@@ -16,6 +16,7 @@ use glam::{DAffine3, Vec2};
 use pliant_meshfile::{OpenOptions, Welding};
 use pliant_solver::{Rigidity, VertexId};
 
+use super::crossings::Search;
 use super::jobs::{Jobs, Opened};
 use super::preparing::Preparing;
 use super::{
@@ -53,6 +54,8 @@ pub struct Session {
     jobs: Jobs,
     preparing: Preparing,
     sent: Option<(u64, Option<Measure>)>,
+    shows_rest: bool,
+    crossings: Search,
     welcome: Option<Welcome>,
     /// What lasts from one start to the next.
     pub preferences: Preferences,
@@ -93,8 +96,10 @@ impl Session {
             viewport_size: Vec2::new(800.0, 600.0),
             worker: Worker::start(move || wake_worker())?,
             preparing: Preparing::new(wake.clone()),
-            jobs: Jobs::new(wake),
+            jobs: Jobs::new(wake.clone()),
             sent: None,
+            shows_rest: false,
+            crossings: Search::new(wake),
             welcome: None,
             preferences: Preferences::default(),
             recent: Recent::default(),
@@ -166,6 +171,7 @@ impl Session {
         self.welcome_to(sample);
         self.take_settings(opened.restored.as_deref_mut());
         let origin = opened.restored.as_ref().map(|restored| restored.origin.clone());
+        self.shows_rest = false;
         self.open = Some(Open::new(opened, sample));
         self.arrived(origin);
         self.synchronize();
@@ -182,6 +188,7 @@ impl Session {
         }
         self.poll_compare();
         self.tick(Instant::now());
+        self.look_for_crossings();
         let mut for_window = Vec::new();
         while let Some(event) = self.jobs.poll() {
             match event {

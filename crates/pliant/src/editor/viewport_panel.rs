@@ -7,7 +7,7 @@ use glam::{Vec2, Vec3};
 use pliant_solver::{Rigidity, VertexId};
 
 use super::look::ramp_max;
-use super::{NoticeKind, Session, theme};
+use super::{Action, NoticeKind, Session, theme};
 use crate::document::{GroupKind, Selection};
 use crate::solving::SolveState;
 use crate::tools::{Cursor, Input, Modifiers, Pointer, ToolKind};
@@ -220,6 +220,8 @@ impl ViewportPanel {
         }
         self.pointer = Some(pos);
         self.gesture = match (button, keys.alt, keys.shift) {
+            // What a tool would take at rest is elsewhere in the pose.
+            (PointerButton::Primary, false, _) if session.shows_rest() => None,
             (PointerButton::Primary, false, _) => Some(Gesture::Tool),
             (PointerButton::Primary, true, _) => Some(Gesture::Orbit),
             (PointerButton::Middle, true, _) | (PointerButton::Middle, _, true) => Some(Gesture::Pan),
@@ -284,6 +286,21 @@ impl ViewportPanel {
         drop(egui_renderer);
         let whole = Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
         ui.painter().image(id, rect, whole, egui::Color32::WHITE);
+        if session.shows_rest() {
+            let key = session.habits.shortcuts.text(Action::TOGGLE_REST, ui.ctx());
+            let words =
+                if key.is_empty() { "Rest shape".to_owned() } else { format!("Rest shape – {key} shows the pose") };
+            let color = theme::palette(session.look.theme).text;
+            let font = egui::FontId::proportional(13.0);
+            ui.painter().text(
+                rect.center_bottom() - egui::vec2(0.0, 24.0),
+                egui::Align2::CENTER_CENTER,
+                words,
+                font,
+                color,
+            );
+            return;
+        }
         let outline = session.marks().outline;
         if outline.len() > 1 {
             let points: Vec<Pos2> = outline.iter().map(|p| rect.min + egui::vec2(p.x, p.y)).collect();
@@ -312,10 +329,14 @@ impl ViewportPanel {
         let marks = session.marks();
         let look = session.look.clone();
         let (coloring, values) = session.coloring();
+        let flaws = session.crossing_faces();
+        // Handles and what a tool draws belong to the pose.
+        let shows_rest = session.shows_rest();
+        let marks = if shows_rest { Default::default() } else { marks };
         let open = session.open()?;
         let (scene, model) = (open.document.scene(), open.document.model());
-        let frame = open.surface.frame().clone();
-        let mut dots = if look.handles { group_dots(session) } else { Vec::new() };
+        let frame = session.shown_frame()?.clone();
+        let mut dots = if look.handles && !shows_rest { group_dots(session) } else { Vec::new() };
         dots.extend(marks.dots);
         keep(&mut self.cache.dots, dots);
         keep(&mut self.cache.lines, marks.lines);
@@ -327,6 +348,8 @@ impl ViewportPanel {
             selected: flags(&mut self.cache.selected, &scene.selection, frame.positions.len()),
             locked: flags(&mut self.cache.locked, &scene.locked, frame.positions.len()),
             preview: marks.preview,
+            textures: model.textures.clone(),
+            flaws,
             base_colors: model.base_colors.clone(),
             dots: self.cache.dots.clone(),
             lines: self.cache.lines.clone(),
@@ -335,10 +358,12 @@ impl ViewportPanel {
             color_opacity: look.opacity,
             shading: look.shading,
             wireframe: look.wireframe,
+            unmarked_edges: model.cut_edges.clone(),
+            see_through: look.see_through,
             grid: look.grid,
             theme: look.theme,
             camera: open.camera,
-            bounds: self.cache.bounds(&frame, || open.bounds()),
+            bounds: self.cache.bounds(&frame, || if shows_rest { model.bounds } else { open.bounds() }),
             frame,
             pixels_per_point,
         })

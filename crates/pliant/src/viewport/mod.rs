@@ -22,11 +22,13 @@ mod scene;
 mod shaders;
 #[cfg(test)]
 mod test_scenes;
+mod textures;
 
 pub use camera::{Axis, Camera, Projection};
 pub use headless::{DeviceWatch, GpuError, Headless, watch_device};
 pub use picture::{picture, picture_on};
 pub use ramp::{energy_color, rigidity_color, soft_stiff_color, stretch_color};
 pub use renderer::{Renderer, samples_for};
-pub use scene::{Coloring, Dot, Line, Preview, Shading, SurfaceFrame, Theme, ViewScene};
+pub use scene::{Coloring, Dot, Line, Matcap, Preview, Shading, SurfaceFrame, Theme, ViewScene};
 pub use shaders::SHADERS;
+pub use textures::{Texture, TextureSet, Wrap};

@@ -1,6 +1,6 @@
 //! What one picture shows. Values and shared arrays only: the renderer finds out what changed by comparing pointers.
 
-use super::Camera;
+use super::{Camera, TextureSet};
 use glam::Vec3;
 use std::sync::Arc;
 
@@ -21,6 +21,27 @@ pub enum Shading {
     Smooth,
     /// From the triangle itself: facets.
     Flat,
+    /// From a painted ball instead of lamps.
+    Matcap(Matcap),
+}
+
+/// A material painted on a ball, from which every point takes what leans away from the eye as it does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Matcap {
+    /// Warm modelling clay.
+    Clay,
+    /// Glazed porcelain with sharp reflections.
+    Porcelain,
+    /// Brushed metal between sky and ground.
+    Metal,
+    /// Reflected stripes, which show how smooth a surface is.
+    Stripes,
+}
+
+impl Matcap {
+    /// All of them, in the order of menus.
+    pub const ALL: [Matcap; 4] = [Matcap::Clay, Matcap::Porcelain, Matcap::Metal, Matcap::Stripes];
 }
 
 /// What colors the surface.
@@ -103,6 +124,11 @@ pub struct ViewScene {
     pub locked: Option<Arc<[bool]>>,
     /// What a click would fill.
     pub preview: Option<Preview>,
+    /// Pictures on the surface, seen where base colors are, and tinted by them. Not shown where the device cannot fetch vertices by
+    /// number.
+    pub textures: Option<Arc<TextureSet>>,
+    /// Faces to point out, by their vertices: drawn in a warning color, faintly also where the surface hides them.
+    pub flaws: Option<Arc<[[u32; 3]]>>,
     /// Base color of each vertex (linear), seen plain and through a ramp that is not opaque. `None`: clay.
     pub base_colors: Option<Arc<[[u8; 4]]>>,
     /// Handles, anchors and the like.
@@ -119,6 +145,11 @@ pub struct ViewScene {
     pub shading: Shading,
     /// Edges of the triangles over the surface.
     pub wireframe: bool,
+    /// Where the wireframe has no lines: bit k of a triangle is set where its edge across from corner k is no edge of the file's,
+    /// but cuts a polygon. `None`: lines everywhere.
+    pub unmarked_edges: Option<Arc<[u8]>>,
+    /// The surface hides only little of what is behind it.
+    pub see_through: bool,
     /// A faint grid on the ground, where the floor of the bounds was when this mesh was first drawn.
     pub grid: bool,
     /// Dark or light surroundings.
@@ -142,6 +173,8 @@ impl ViewScene {
             selected: None,
             locked: None,
             preview: None,
+            textures: None,
+            flaws: None,
             base_colors: None,
             dots: Arc::new([]),
             lines: Arc::new([]),
@@ -150,6 +183,8 @@ impl ViewScene {
             color_opacity: 1.0,
             shading: Shading::Smooth,
             wireframe: false,
+            unmarked_edges: None,
+            see_through: false,
             grid: false,
             theme: Theme::Dark,
             camera,
@@ -160,16 +195,42 @@ impl ViewScene {
 
     /// Would both give the same picture? Arrays are the same if they are the same allocation.
     pub(super) fn same_picture(&self, other: &ViewScene) -> bool {
-        Arc::ptr_eq(&self.triangles, &other.triangles)
+        self.same_mesh(other)
             && Arc::ptr_eq(&self.frame, &other.frame)
             && self.same_colors(other)
+            && self.same_flaws(other)
             && Arc::ptr_eq(&self.dots, &other.dots)
             && Arc::ptr_eq(&self.lines, &other.lines)
             && self.shading == other.shading
-            && (self.wireframe, self.grid) == (other.wireframe, other.grid)
+            && (self.wireframe, self.grid, self.see_through) == (other.wireframe, other.grid, other.see_through)
             && self.camera == other.camera
             && self.bounds == other.bounds
             && self.pixels_per_point == other.pixels_per_point
+    }
+
+    /// Are triangles, lines on them and textures the same?
+    pub(super) fn same_mesh(&self, other: &ViewScene) -> bool {
+        Arc::ptr_eq(&self.triangles, &other.triangles)
+            && same(&self.unmarked_edges, &other.unmarked_edges)
+            && same(&self.textures, &other.textures)
+    }
+
+    /// Would both point out the same faces?
+    pub(super) fn same_flaws(&self, other: &ViewScene) -> bool {
+        same(&self.flaws, &other.flaws)
+    }
+
+    /// Is what lies under the textures the same?
+    pub(super) fn same_bases(&self, other: &ViewScene) -> bool {
+        same(&self.base_colors, &other.base_colors)
+            && same(&self.textures, &other.textures)
+            && same(&self.locked, &other.locked)
+            && same_preview(&self.preview, &other.preview)
+    }
+
+    /// Whether anything of the textures would be seen: an opaque ramp covers them.
+    pub(super) fn shows_textures(&self) -> bool {
+        self.textures.is_some() && (self.coloring == Coloring::Plain || self.color_opacity < 1.0)
     }
 
     /// Would both color the vertices alike?
@@ -177,9 +238,7 @@ impl ViewScene {
         Arc::ptr_eq(&self.rigidity, &other.rigidity)
             && same(&self.values, &other.values)
             && same(&self.selected, &other.selected)
-            && same(&self.locked, &other.locked)
-            && same_preview(&self.preview, &other.preview)
-            && same(&self.base_colors, &other.base_colors)
+            && self.same_bases(other)
             && (self.ramp_max, self.color_opacity) == (other.ramp_max, other.color_opacity)
             && (self.theme, &self.coloring) == (other.theme, &other.coloring)
     }

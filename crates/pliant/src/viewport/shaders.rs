@@ -13,9 +13,9 @@ macro_rules! program {
 /// The gradient behind everything.
 pub(super) const BACKGROUND: &str = program!("background.wgsl");
 /// The lit surface from indexed vertices.
-pub(super) const SURFACE: &str = program!("lighting.wgsl", "surface.wgsl");
-/// The lit surface with its edges, vertices fetched by number.
-pub(super) const WIREFRAME: &str = program!("lighting.wgsl", "wireframe.wgsl");
+pub(super) const SURFACE: &str = program!("matcap.wgsl", "lighting.wgsl", "surface.wgsl");
+/// The lit surface with its edges or textures, vertices fetched by number.
+pub(super) const FETCHED: &str = program!("matcap.wgsl", "lighting.wgsl", "fetched.wgsl");
 /// Edges as plain lines.
 pub(super) const EDGES: &str = program!("edges.wgsl");
 /// The ground grid.
@@ -29,7 +29,7 @@ pub(super) const LINES: &str = program!("lines.wgsl");
 pub const SHADERS: &[(&str, &str)] = &[
     ("background", BACKGROUND),
     ("surface", SURFACE),
-    ("wireframe", WIREFRAME),
+    ("fetched", FETCHED),
     ("edges", EDGES),
     ("grid", GRID),
     ("dots", DOTS),

@@ -3,6 +3,8 @@
 mod overlays;
 mod renderer;
 mod surface;
+mod uploads;
+mod views;
 
 use glam::{Vec2, Vec3};
 use image::RgbaImage;

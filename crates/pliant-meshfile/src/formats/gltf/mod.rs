@@ -26,12 +26,14 @@ mod relocate;
 mod rewrite;
 mod shape;
 mod source;
+mod textures;
 
 pub(super) use export::write;
 pub(super) use read::read;
 
-use super::source::{Bindings, Edit, Motion, Output, Source};
+use super::source::{Before, Bindings, Edit, Motion, Output, Source};
 use crate::shape::Shape;
+use crate::textures::Textures;
 use crate::{Fault, Format, SaveError};
 use source::GltfSource;
 use std::path::Path;
@@ -48,6 +50,10 @@ impl Source for GltfSource {
 
     fn references(&self) -> Vec<String> {
         relocate::images_beside(&self.document).filter_map(crate::files::percent_decoded).collect()
+    }
+
+    fn textures(&self, mesh: Before<'_>) -> Textures {
+        textures::textures(self, mesh)
     }
 
     fn bindings(&self) -> Option<Box<dyn Bindings + '_>> {

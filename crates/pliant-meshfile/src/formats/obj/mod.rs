@@ -10,11 +10,13 @@ mod parse;
 mod rewrite;
 mod source;
 mod text;
+mod textures;
 
 pub(super) use export::{beside, write};
 
-use super::source::{Edit, Input, Opened, Output, Source};
+use super::source::{Before, Edit, Input, Opened, Output, Source};
 use crate::shape::{Corner, NO_MATERIAL, NONE, Part, Shape, ShapePart};
+use crate::textures::Textures;
 use crate::{Fault, Format, SaveError};
 use glam::{Vec2, Vec3};
 use source::ObjSource;
@@ -25,7 +27,7 @@ use std::sync::Arc;
 /// Reads an OBJ file.
 pub(super) fn read(input: Input<'_>) -> Result<Opened, Fault> {
     let mut parsed = parse::parse(&input.bytes, input.name, input.stage)?;
-    let materials = materials::load(&mut parsed, input.folder, input.unfinished);
+    let (materials, maps) = materials::load(&mut parsed, input.folder, input.unfinished);
     let color_of = |material: Option<usize>| material.map_or(NO_MATERIAL, |m| materials[m].base_color);
     let part = |part: &ShapePart| Part {
         name: part.name.clone(),
@@ -43,6 +45,7 @@ pub(super) fn read(input: Input<'_>) -> Result<Opened, Fault> {
         corners: parsed.corners,
         parts: parsed.parts,
         materials,
+        maps,
         libraries: parsed.libraries,
         polygons: parsed.polygons,
         skipped: parsed.skipped,
@@ -108,6 +111,10 @@ impl Source for ObjSource {
 
     fn polygons(&self) -> &[Range<u32>] {
         &self.polygons
+    }
+
+    fn textures(&self, _mesh: Before<'_>) -> Textures {
+        textures::textures(self)
     }
 
     fn shape(&self, edit: &Edit<'_>) -> Shape {

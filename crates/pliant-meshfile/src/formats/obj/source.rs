@@ -1,6 +1,7 @@
 //! An OBJ file as it came.
 
 use super::parse::Skipped;
+use super::textures::Map;
 use crate::folder::Folder;
 use crate::shape::{Material, ShapePart};
 use glam::{Vec2, Vec3};
@@ -20,6 +21,8 @@ pub(super) struct ObjSource {
     pub(super) corners: Vec<[(u32, u32); 3]>,
     pub(super) parts: Vec<ShapePart>,
     pub(super) materials: Vec<Material>,
+    /// The picture of each material, if it has one.
+    pub(super) maps: Vec<Option<Map>>,
     /// Material libraries the file names.
     pub(super) libraries: Vec<String>,
     /// Triangles that each face of more than three corners was cut into.

@@ -45,6 +45,24 @@ actions! {
         .look(|look| {
             look.shading = if look.shading == Shading::Smooth { Shading::Flat } else { Shading::Smooth };
         });
+    /// A surface that hides little.
+    TOGGLE_SEE_THROUGH = Entry::new("view.see-through", "X-ray", "See through the surface, to handles and faces behind it")
+        .key(ALT, Key::Z)
+        .on(|session| session.look.see_through)
+        .look(|look| look.see_through = !look.see_through);
+    /// Faces that pass through others.
+    TOGGLE_CROSSINGS = Entry::new(
+        "view.self-intersections",
+        "Self-intersections",
+        "Look for faces that pass through others whenever the surface rests, and point them out",
+    )
+    .on(|session| session.look.crossings)
+    .look(|look| look.crossings = !look.crossings);
+    /// The shape at rest instead of the pose.
+    TOGGLE_REST = Entry::new("view.rest", "Rest shape", "Show the shape before it was bent; hold the key for a short look")
+        .key(NONE, Key::O)
+        .on(Session::shows_rest)
+        .does(Session::toggle_rest);
     /// Ground grid.
     TOGGLE_GRID = Entry::new("view.grid", "Ground grid", "Show a grid below the mesh")
         .on(|session| session.look.grid)

@@ -108,6 +108,8 @@ impl PanePicture {
             bounds: surface.bounds,
             dots: surface.dots.clone(),
             lines: Arc::new([]),
+            // Those of the document's pose.
+            flaws: None,
             selected: None,
             ramp_max: shown.ramp_max.max(uniform),
             rigidity,

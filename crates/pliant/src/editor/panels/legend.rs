@@ -4,7 +4,7 @@ use egui::{Align2, Color32, CornerRadius, FontId, Painter, Rect, Ui, Vec2, pos2,
 
 use crate::editor::look::ramp_max;
 use crate::editor::theme::{Palette, palette};
-use crate::editor::{ColorBy, Learning, Session, Shown, theme};
+use crate::editor::{ColorBy, Crossings, Learning, Session, Shown, theme};
 use crate::solving::Measure;
 use crate::viewport::{Coloring, energy_color, rigidity_color, soft_stiff_color, stretch_color};
 
@@ -16,6 +16,8 @@ const CARD: Vec2 = Vec2::new(212.0, 62.0);
 /// Pieces a ramp is painted in: each is 4 points wide.
 const PIECES: usize = 48;
 const MARGIN: f32 = 10.0;
+/// The light stripes of faces that cross others.
+const FLAW: Color32 = Color32::from_rgb(255, 48, 150);
 
 /// A ramp, what it shows, and the numbers at its start, middle and end.
 struct Scale {
@@ -30,10 +32,11 @@ pub(in crate::editor) fn legend(ui: &mut Ui, viewport: Rect, session: &mut Sessi
     let Some(max) = session.shown_rigidity().map(ramp_max) else { return };
     let coloring = session.coloring().0;
     let size = match coloring {
-        Coloring::Plain if session.look.color_by.measure().is_none() => return,
+        Coloring::Plain if session.look.color_by.measure().is_none() => return crossings(ui, viewport, 0.0, session),
         Coloring::Rigidity => vec2(f32::from(max.min(NUMBERED)) * SWATCH.x + 2.0 * MARGIN, 52.0),
         _ => CARD,
     };
+    crossings(ui, viewport, size.y + 6.0, session);
     let corner = pos2(viewport.left() + 12.0, viewport.bottom() - size.y - 12.0);
     // A layer of its own, so that a click on the legend does nothing to the surface behind it.
     egui::Area::new(egui::Id::unique("legend")).fixed_pos(corner).show(ui.ctx(), |ui| {
@@ -51,6 +54,37 @@ pub(in crate::editor) fn legend(ui: &mut Ui, viewport: Rect, session: &mut Sessi
             }
         };
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &about));
+        response.on_hover_text(about);
+    });
+}
+
+/// What is known of faces that cross others, on a card so far above the lower edge.
+fn crossings(ui: &mut Ui, viewport: Rect, above: f32, session: &Session) {
+    let (words, is_bad) = match session.crossings() {
+        Crossings::Off => return,
+        Crossings::Waiting => ("Self-intersections: when it rests".to_owned(), false),
+        Crossings::Searching => ("Self-intersections: looking…".to_owned(), false),
+        Crossings::Found { n_faces: 0, .. } => ("No self-intersections".to_owned(), false),
+        Crossings::Found { n_faces, .. } => (format!("Self-intersections: {n_faces} faces"), true),
+    };
+    let about = match session.crossings() {
+        Crossings::Found { n_pairs, .. } if is_bad => {
+            format!("{n_pairs} pairs of faces pass through each other; they are striped, faintly also inside")
+        }
+        _ => "Faces that pass through each other are looked for whenever the surface rests".to_owned(),
+    };
+    let size = vec2(CARD.x, 26.0);
+    let corner = pos2(viewport.left() + 12.0, viewport.bottom() - size.y - 12.0 - above);
+    egui::Area::new(egui::Id::unique("self-intersections")).fixed_pos(corner).show(ui.ctx(), |ui| {
+        let (card, response) = ui.allocate_exact_size(size, egui::Sense::hover());
+        let colors = palette(session.look.theme);
+        ui.painter().rect_filled(card, CornerRadius::same(6), colors.panel.gamma_multiply(0.86));
+        let mark = Rect::from_center_size(card.left_center() + vec2(MARGIN + 6.0, 0.0), vec2(12.0, 12.0));
+        let ink = if is_bad { FLAW } else { colors.quiet };
+        ui.painter().rect_filled(mark, CornerRadius::same(2), ink.gamma_multiply(if is_bad { 1.0 } else { 0.4 }));
+        let at = card.left_center() + vec2(MARGIN + 20.0, 0.0);
+        ui.painter().text(at, Align2::LEFT_CENTER, &words, FontId::proportional(11.0), colors.text);
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &words));
         response.on_hover_text(about);
     });
 }

@@ -3,20 +3,23 @@
 use egui::{ComboBox, DragValue, Slider, Ui};
 use pliant_solver::Rigidity;
 
+use crate::editor::look::SHADINGS;
 use crate::editor::{ColorBy, Look, Session};
-use crate::viewport::{Shading, Theme};
+use crate::viewport::Theme;
 
 /// What colors the surface, how it is lit, what is drawn with it.
 pub(super) fn view(ui: &mut Ui, session: &mut Session) {
     let mut look = session.look.clone();
     color(ui, &mut look);
-    ui.horizontal(|ui| {
-        ui.label("Shading");
-        ui.selectable_value(&mut look.shading, Shading::Smooth, "smooth").on_hover_text("A smooth surface");
-        ui.selectable_value(&mut look.shading, Shading::Flat, "flat").on_hover_text("Every face by itself");
-    });
+    shading(ui, &mut look);
     ui.horizontal_wrapped(|ui| {
         ui.checkbox(&mut look.wireframe, "wireframe").on_hover_text("Edges of the mesh over the surface");
+        ui.checkbox(&mut look.see_through, "x-ray")
+            .on_hover_text("See through the surface, to handles and faces behind it");
+        let crossings = ui.checkbox(&mut look.crossings, "self-intersections");
+        crossings.on_hover_text(
+            "Look for faces that pass through others whenever the surface rests, and point them out in stripes",
+        );
         ui.checkbox(&mut look.grid, "grid").on_hover_text("A grid on the ground");
         ui.checkbox(&mut look.handles, "handles").on_hover_text("Dots of handles and anchors, and the gizmo");
     });
@@ -28,6 +31,20 @@ pub(super) fn view(ui: &mut Ui, session: &mut Session) {
     if look != session.look {
         session.set_look(look);
     }
+}
+
+fn shading(ui: &mut Ui, look: &mut Look) {
+    let (_, name, about) = SHADINGS.into_iter().find(|shading| shading.0 == look.shading).unwrap_or(SHADINGS[0]);
+    ui.horizontal(|ui| {
+        let label = ui.label("Shading");
+        let list = ComboBox::from_id_salt("shading").selected_text(name).width(150.0);
+        let list = list.show_ui(ui, |ui| {
+            for (shading, name, about) in SHADINGS {
+                ui.selectable_value(&mut look.shading, shading, name).on_hover_text(about);
+            }
+        });
+        list.response.labelled_by(label.id).on_hover_text(about);
+    });
 }
 
 fn color(ui: &mut Ui, look: &mut Look) {

@@ -18,11 +18,11 @@ const PREVIEW_GLOW: u32 = 28;
 const RAMP_ENTRIES: usize = 256;
 
 /// Color and selection (0 or 255) of each of `n_vertices` vertices into `out`. Beyond the end of arrays that are too short: r = 1,
-/// energy 0, not selected, clay.
-pub(super) fn vertex_colors(scene: &ViewScene, n_vertices: usize, out: &mut Vec<[u8; 4]>) {
+/// energy 0, not selected, clay. Of a textured surface the ramp's colors alone: they are laid over the texture when it is drawn.
+pub(super) fn vertex_colors(scene: &ViewScene, n_vertices: usize, is_textured: bool, out: &mut Vec<[u8; 4]>) {
     let clay = linear(CLAY[usize::from(scene.theme == Theme::Light)]);
     let ramp = ramp_table(scene);
-    let opacity = scene.color_opacity.clamp(0.0, 1.0);
+    let opacity = if is_textured { 1.0 } else { scene.color_opacity.clamp(0.0, 1.0) };
     let mix = |base: Vec3, entry: usize| match ramp.get(entry) {
         Some(color) => roots(base.lerp(*color, opacity)),
         None => roots(base),
@@ -30,9 +30,7 @@ pub(super) fn vertex_colors(scene: &ViewScene, n_vertices: usize, out: &mut Vec<
     out.clear();
     match &scene.base_colors {
         Some(bases) => out.extend((0..n_vertices).map(|vertex| {
-            let base = bases
-                .get(vertex)
-                .map_or(clay, |[r, g, b, _]| Vec3::new(f32::from(*r), f32::from(*g), f32::from(*b)) / 255.0);
+            let base = bases.get(vertex).map_or(clay, base_light);
             mix(base, ramp_entry(scene, vertex))
         })),
         None => {
@@ -67,6 +65,20 @@ fn lay_over(scene: &ViewScene, colors: &mut [[u8; 4]]) {
             }
         }
     }
+}
+
+/// What lies under the textures of so many vertices: base colors, white where there are none.
+pub(super) fn base_roots(scene: &ViewScene, n_vertices: usize) -> Vec<[u8; 4]> {
+    let bases = scene.base_colors.as_deref().unwrap_or_default();
+    let base = |vertex| bases.get(vertex).map_or(Vec3::ONE, base_light);
+    let mut colors: Vec<_> = (0..n_vertices).map(|vertex| roots(base(vertex))).collect();
+    lay_over(scene, &mut colors);
+    colors
+}
+
+/// Linear light of a base color.
+fn base_light([r, g, b, _]: &[u8; 4]) -> Vec3 {
+    Vec3::new(f32::from(*r), f32::from(*g), f32::from(*b)) / 255.0
 }
 
 /// Square roots of linear light, not selected.
@@ -118,39 +130,26 @@ fn rigidity_entry(r: u16, ramp_max: u16) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::super::super::{Camera, Preview, Shading, SurfaceFrame};
+    use super::super::super::{Camera, Preview, SurfaceFrame};
     use super::*;
     use std::sync::Arc;
 
     /// Vertices of these rigidities, colored by them.
     fn painted(rigidity: &[u16], ramp_max: u16, opacity: f32) -> ViewScene {
+        let bounds = (Vec3::NEG_ONE, Vec3::ONE);
+        let camera = Camera::framing(bounds.0, bounds.1);
         ViewScene {
-            triangles: Arc::new([]),
-            frame: Arc::new(SurfaceFrame::default()),
             rigidity: rigidity.into(),
-            values: None,
-            selected: None,
-            locked: None,
-            preview: None,
-            base_colors: None,
-            dots: Arc::new([]),
-            lines: Arc::new([]),
             coloring: Coloring::Rigidity,
             ramp_max,
             color_opacity: opacity,
-            shading: Shading::Smooth,
-            wireframe: false,
-            grid: false,
-            theme: Theme::Dark,
-            camera: Camera::framing(Vec3::NEG_ONE, Vec3::ONE),
-            bounds: (Vec3::NEG_ONE, Vec3::ONE),
-            pixels_per_point: 1.0,
+            ..ViewScene::plain(Arc::new([]), Arc::new(SurfaceFrame::default()), camera, bounds)
         }
     }
 
     fn colors(scene: &ViewScene, n: usize) -> Vec<[u8; 4]> {
         let mut out = vec![[9; 4]; 3];
-        vertex_colors(scene, n, &mut out);
+        vertex_colors(scene, n, false, &mut out);
         out
     }
 

@@ -1,17 +1,20 @@
-//! How shaders reach their data: one group for the whole picture, one for fetching vertices by number.
+//! How shaders reach their data: one group for the whole picture, one for fetching vertices by number, one for a texture.
 
 use super::uniforms::Picture;
 
-/// Storage buffers the wireframe program fetches from: positions, normals, colors, corners.
-pub(super) const FETCHED: u32 = 4;
+/// Storage buffers of the fetching programs: positions, normals, colors, corners, edges without lines, texture coordinates, base
+/// colors. Common devices have eight.
+pub(super) const FETCHED: u32 = 7;
 
 /// Bind group layouts, and whether vertices can be fetched by number.
 #[derive(Clone)]
 pub(super) struct Layouts {
     /// Group 0 of every program: the uniforms of one picture.
     pub(super) picture: wgpu::BindGroupLayout,
-    /// Group 1 of the wireframe program; `None` where vertex programs have no storage buffers.
+    /// Group 1 of the fetching programs; `None` where vertex programs have not enough storage buffers.
     pub(super) fetch: Option<wgpu::BindGroupLayout>,
+    /// Group 2 of programs with a texture.
+    pub(super) texture: wgpu::BindGroupLayout,
 }
 
 impl Layouts {
@@ -30,6 +33,7 @@ impl Layouts {
                     (0..FETCHED).map(|binding| entry(binding, wgpu::ShaderStages::VERTEX, storage)).collect();
                 layout(device, "fetch", &entries)
             }),
+            texture: layout(device, "texture", &texture()),
         }
     }
 
@@ -52,6 +56,19 @@ impl Layouts {
 
 fn layout(device: &wgpu::Device, label: &str, entries: &[wgpu::BindGroupLayoutEntry]) -> wgpu::BindGroupLayout {
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(label), entries })
+}
+
+/// A picture and how it is looked up.
+fn texture() -> [wgpu::BindGroupLayoutEntry; 2] {
+    let picture = wgpu::BindingType::Texture {
+        sample_type: wgpu::TextureSampleType::Float { filterable: true },
+        view_dimension: wgpu::TextureViewDimension::D2,
+        multisampled: false,
+    };
+    let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
+    let visibility = wgpu::ShaderStages::FRAGMENT;
+    let entry = |binding, ty| wgpu::BindGroupLayoutEntry { binding, visibility, ty, count: None };
+    [entry(0, picture), entry(1, sampler)]
 }
 
 fn entry(binding: u32, visibility: wgpu::ShaderStages, ty: wgpu::BufferBindingType) -> wgpu::BindGroupLayoutEntry {

@@ -1,19 +1,21 @@
 //! Draws a [`ViewScene`] into an offscreen picture. Long-lived pipelines and buffers here, what is seen in the scene.
 //!
-//! One pass: surface (with or without edges), background where it left room, ground grid, lines, dots twice (dimmed, then in full where nothing
-//! hides them), lines on top. Depth is a reversed float. Colors are encoded to sRGB in the shaders, since sRGB views of a plain target
+//! One pass: background, surface (with or without edges and textures), faces to point out, ground grid, lines, dots twice (dimmed,
+//! then in full where nothing hides them), lines on top. A surface that is seen through comes after the grid and leaves no depth. Depth is a reversed float. Colors are encoded to sRGB in the shaders, since sRGB views of a plain target
 //! are not to be had everywhere, and so blending happens on encoded colors, as in the rest of the window.
 
+mod chunk;
 mod colors;
+mod gpu;
 mod instances;
 mod layouts;
 mod marks;
-mod pipelines;
+mod programs;
 mod readback;
-mod sibling;
 mod stream;
 mod surface;
 mod targets;
+mod textures;
 mod uniforms;
 
 #[cfg(test)]
@@ -21,9 +23,9 @@ mod tests;
 
 use super::{GpuError, ViewScene};
 use glam::Vec3;
-use layouts::Layouts;
+use gpu::Gpu;
 use marks::Marks;
-use pipelines::{Modules, Pipelines};
+use programs::{Program, Programs};
 use std::sync::Arc;
 use surface::Surface;
 use targets::Targets;
@@ -36,11 +38,8 @@ pub fn samples_for(info: &wgpu::AdapterInfo) -> u32 {
 
 /// Long-lived pipelines and buffers; draws offscreen into `Rgba8Unorm` with gamma encoded in the shader.
 pub struct Renderer {
-    device: wgpu::Device,
-    queue: wgpu::Queue,
-    layouts: Layouts,
-    modules: Modules,
-    pipelines: Pipelines,
+    gpu: Gpu,
+    programs: Arc<Programs>,
     uniforms: wgpu::Buffer,
     group: wgpu::BindGroup,
     surface: Surface,
@@ -49,6 +48,7 @@ pub struct Renderer {
     generation: u64,
     shown: Option<ViewScene>,
     ground: Option<Ground>,
+    uploaded: u64,
 }
 
 /// Where the grid lies: at the bounds a mesh had when it was first drawn, so that the ground rests while the surface moves.
@@ -58,35 +58,40 @@ struct Ground {
 }
 
 impl Renderer {
-    /// Compiles everything. `samples` a pixel: 4 or more gives 4, anything less 1 (see [`samples_for`]).
+    /// Programs are compiled when they are first drawn with. `samples` a pixel: 4 or more gives 4, anything less 1 (see
+    /// [`samples_for`]).
     pub fn new(device: &wgpu::Device, queue: &wgpu::Queue, samples: u32) -> Renderer {
-        let layouts = Layouts::new(device);
-        let modules = Modules::new(device, &layouts);
-        let samples = supported(samples);
-        let (uniforms, group) = layouts.picture_group(device);
+        Renderer::with(Gpu::new(device, queue), Arc::new(Programs::new(device)), supported(samples))
+    }
+
+    /// Another renderer on the same device, for pictures side by side. It shares the compiled programs, which take the most time to
+    /// make, and has buffers and targets of its own: 28 bytes a vertex and 12 a triangle, and what the pixels need.
+    pub fn sibling(&self) -> Renderer {
+        Renderer::with(Gpu::new(&self.gpu.device, &self.gpu.queue), self.programs.clone(), self.targets.samples)
+    }
+
+    fn with(gpu: Gpu, programs: Arc<Programs>, samples: u32) -> Renderer {
+        let (uniforms, group) = programs.layouts.picture_group(&gpu.device);
         Renderer {
-            pipelines: Pipelines::new(device, &layouts, &modules, samples),
-            surface: Surface::new(device, &layouts),
+            surface: Surface::new(&gpu, &programs.layouts),
             marks: Marks::new(),
-            targets: Targets::new(device, [1, 1], samples),
-            device: device.clone(),
-            queue: queue.clone(),
-            layouts,
-            modules,
+            targets: Targets::new(&gpu.device, [1, 1], samples),
+            gpu,
+            programs,
             uniforms,
             group,
             generation: 0,
             shown: None,
             ground: None,
+            uploaded: 0,
         }
     }
 
-    /// Changes the samples a pixel, for example to refine a picture that stands still. Costs new pipelines and targets, and so a new
-    /// generation of the view, when the number differs.
+    /// Changes the samples a pixel, for example to refine a picture that stands still. Costs new targets, and so a new generation of
+    /// the view, when the number differs.
     pub fn set_samples(&mut self, samples: u32) {
         let samples = supported(samples);
         if samples != self.targets.samples {
-            self.pipelines = Pipelines::new(&self.device, &self.layouts, &self.modules, samples);
             self.replace_targets(self.targets.size, samples);
         }
     }
@@ -94,23 +99,30 @@ impl Renderer {
     /// Draws if anything changed since the last call. Returns the picture's view and its generation: a new number means a new view
     /// (after a change of size), for `update_egui_texture_from_wgpu_texture`. A size beyond the device's is clamped.
     pub fn render(&mut self, scene: &ViewScene, size_px: [u32; 2]) -> (&wgpu::TextureView, u64) {
-        let most = self.device.limits().max_texture_dimension_2d;
+        let most = self.gpu.device.limits().max_texture_dimension_2d;
         let size = size_px.map(|side| side.clamp(1, most));
         let resized = size != self.targets.size || self.generation == 0;
         if resized {
             self.replace_targets(size, self.targets.samples);
         }
+        self.gpu.take_written();
         let unchanged = self.shown.as_ref().is_some_and(|shown| shown.same_picture(scene));
         if !unchanged {
             self.upload(scene);
         }
         if resized || !unchanged {
             let uniforms = Picture::new(scene, size, self.ground(scene));
-            self.queue.write_buffer(&self.uniforms, 0, bytemuck::bytes_of(&uniforms));
+            self.gpu.write(&self.uniforms, bytemuck::bytes_of(&uniforms));
             self.draw(scene);
             self.shown = Some(scene.clone());
         }
+        self.uploaded = self.gpu.take_written();
         (&self.targets.color_view, self.generation)
+    }
+
+    /// How many bytes the last picture brought to the device: none if nothing changed.
+    pub fn uploaded_bytes(&self) -> u64 {
+        self.uploaded
     }
 
     /// Reads the last picture back as tightly packed sRGB RGBA8; a fully transparent one (and a log line) if the device fails.
@@ -126,11 +138,11 @@ impl Renderer {
     /// # Errors
     /// [`GpuError::Unreadable`] when the device fails.
     pub fn try_read_pixels(&self) -> Result<image::RgbaImage, GpuError> {
-        readback::read(&self.device, &self.queue, &self.targets)
+        readback::read(&self.gpu.device, &self.gpu.queue, &self.targets)
     }
 
     fn replace_targets(&mut self, size: [u32; 2], samples: u32) {
-        self.targets = Targets::new(&self.device, size, samples);
+        self.targets = Targets::new(&self.gpu.device, size, samples);
         self.generation += 1;
         self.shown = None;
     }
@@ -148,27 +160,35 @@ impl Renderer {
 
     /// Brings what differs from the last picture to the device.
     fn upload(&mut self, scene: &ViewScene) {
-        let (device, queue) = (&self.device, &self.queue);
-        self.surface.upload(device, queue, &self.layouts, scene);
-        self.marks.upload(device, queue, scene);
+        self.surface.upload(&self.gpu, &self.programs.layouts, scene);
+        self.marks.upload(&self.gpu, scene);
     }
 
     fn draw(&self, scene: &ViewScene) {
         let mut encoder =
-            self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("viewport") });
+            self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("viewport") });
         {
             let mut pass = self.targets.begin(&mut encoder);
             pass.set_bind_group(0, &self.group, &[]);
-            pass.set_pipeline(&self.pipelines.background);
-            pass.draw(0..3, 0..1);
-            self.surface.draw(&mut pass, &self.pipelines, scene.wireframe);
-            if scene.grid {
-                pass.set_pipeline(&self.pipelines.grid);
+            let pipelines = self.programs.at(self.targets.samples);
+            if pipelines.set(&mut pass, Program::Background) {
+                pass.draw(0..3, 0..1);
+            }
+            // What hides nothing comes after what is seen through it.
+            if !scene.see_through {
+                self.surface.draw(&mut pass, pipelines, scene);
+                self.surface.draw_flaws(&mut pass, pipelines);
+            }
+            if scene.grid && pipelines.set(&mut pass, Program::Grid) {
                 pass.draw(0..4, 0..1);
             }
-            self.marks.draw(&mut pass, &self.pipelines);
+            if scene.see_through {
+                self.surface.draw(&mut pass, pipelines, scene);
+                self.surface.draw_flaws(&mut pass, pipelines);
+            }
+            self.marks.draw(&mut pass, pipelines);
         }
-        self.queue.submit([encoder.finish()]);
+        self.gpu.queue.submit([encoder.finish()]);
     }
 }
 

@@ -1,5 +1,7 @@
 //! A buffer that is written again and again and made anew only when it is too small.
 
+use super::gpu::Gpu;
+
 /// A growing buffer on the device.
 pub(super) struct Stream {
     label: &'static str,
@@ -28,23 +30,21 @@ impl Stream {
     }
 
     /// Replaces the contents. Bytes beyond what a buffer of this device can hold leave the stream empty, with a warning.
-    pub(super) fn write(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, bytes: &[u8]) -> Written {
-        let written = self.reserve(device, bytes.len() as u64);
-        if let Some(buffer) = &self.buffer
-            && !bytes.is_empty()
-        {
-            queue.write_buffer(buffer, 0, bytes);
+    pub(super) fn write(&mut self, gpu: &Gpu, bytes: &[u8]) -> Written {
+        let written = self.reserve(gpu, bytes.len() as u64);
+        if let Some(buffer) = &self.buffer {
+            gpu.write(buffer, bytes);
         }
         written
     }
 
     /// Makes room for `size` bytes, zeros if the buffer is new. Keeps a larger buffer unless it is four times too large.
-    pub(super) fn reserve(&mut self, device: &wgpu::Device, size: u64) -> Written {
+    pub(super) fn reserve(&mut self, gpu: &Gpu, size: u64) -> Written {
         let held = self.buffer.as_ref().map_or(0, wgpu::Buffer::size);
         if size > 0 && size <= held && size >= held / 4 {
             return Written::InPlace;
         }
-        let most = device.limits().max_buffer_size;
+        let most = gpu.device.limits().max_buffer_size;
         self.buffer = None;
         if size > most {
             log::warn!(
@@ -52,7 +52,7 @@ impl Stream {
                 self.label
             );
         } else if size > 0 {
-            self.buffer = Some(device.create_buffer(&wgpu::BufferDescriptor {
+            self.buffer = Some(gpu.device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some(self.label),
                 size,
                 usage: self.usage,

@@ -1,48 +1,59 @@
 //! The surface on the device: streams for what moves, chunks of corners for what stays.
 
 use super::super::{SurfaceFrame, ViewScene};
-use super::colors::vertex_colors;
+use super::chunk::{Chunk, Corners, whole_triangles};
+use super::colors::{base_roots, vertex_colors};
+use super::gpu::Gpu;
 use super::layouts::Layouts;
-use super::pipelines::Pipelines;
+use super::programs::{Pipelines, Program};
 use super::stream::{Stream, Written};
+use super::textures::Textures;
 use std::sync::Arc;
-
-const CORNER_BYTES: u64 = 4;
 
 /// Vertices and corners of the surface.
 pub(super) struct Surface {
     positions: Stream,
     normals: Stream,
     colors: Stream,
+    /// Colors under the textures; empty without.
+    bases: Stream,
     chunks: Vec<Chunk>,
-    /// Unique edges, only where the wireframe program is not to be had.
-    edges: Vec<Chunk>,
+    /// Unique edges, only where the fetching programs are not to be had.
+    edges: Vec<Corners>,
+    /// Corners of the faces that are pointed out.
+    flaws: Vec<Corners>,
+    textures: Textures,
+    /// Bound in place of what a mesh does not have.
+    nothing: wgpu::Buffer,
     largest_chunk: u64,
     largest_binding: u64,
     mixed: Vec<[u8; 4]>,
-    shown: Option<ViewScene>,
+    shown: Option<Shown>,
 }
 
-/// Corner numbers in one buffer, and the group that fetches by them.
-struct Chunk {
-    buffer: wgpu::Buffer,
-    n_corners: u32,
-    fetch: Option<wgpu::BindGroup>,
+/// What the device holds.
+struct Shown {
+    scene: ViewScene,
+    is_textured: bool,
 }
 
 impl Surface {
     /// Nothing yet.
-    pub(super) fn new(device: &wgpu::Device, layouts: &Layouts) -> Surface {
-        let limits = device.limits();
+    pub(super) fn new(gpu: &Gpu, layouts: &Layouts) -> Surface {
+        let limits = gpu.device.limits();
         let largest_binding = if layouts.fetch.is_some() { limits.max_storage_buffer_binding_size } else { 0 };
-        let usage = wgpu::BufferUsages::VERTEX
-            | if layouts.fetch.is_some() { wgpu::BufferUsages::STORAGE } else { wgpu::BufferUsages::empty() };
+        let storage = if layouts.fetch.is_some() { wgpu::BufferUsages::STORAGE } else { wgpu::BufferUsages::empty() };
+        let usage = wgpu::BufferUsages::VERTEX | storage;
         Surface {
             positions: Stream::new("positions", usage),
             normals: Stream::new("normals", usage),
             colors: Stream::new("colors", usage),
+            bases: Stream::new("base colors", usage),
             chunks: Vec::new(),
             edges: Vec::new(),
+            flaws: Vec::new(),
+            textures: Textures::default(),
+            nothing: gpu.buffer("nothing", usage, &[0; 4]),
             largest_chunk: match largest_binding {
                 0 => limits.max_buffer_size,
                 binding => binding.min(limits.max_buffer_size),
@@ -53,107 +64,175 @@ impl Surface {
         }
     }
 
-    /// Brings what the device does not hold yet: 24 bytes a vertex for a new frame, 4 for new colors, 12 a triangle for a new mesh.
-    pub(super) fn upload(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, layouts: &Layouts, scene: &ViewScene) {
+    /// Brings what the device does not hold yet: 24 bytes a vertex for a new frame, 4 for new colors, 12 a triangle for a new mesh
+    /// (24 more with textures).
+    pub(super) fn upload(&mut self, gpu: &Gpu, layouts: &Layouts, scene: &ViewScene) {
         let shown = self.shown.take();
-        let shown = shown.as_ref();
-        let same_mesh = shown.is_some_and(|shown| Arc::ptr_eq(&shown.triangles, &scene.triangles));
-        let same_frame = shown.is_some_and(|shown| Arc::ptr_eq(&shown.frame, &scene.frame));
-        let same_count = shown.is_some_and(|shown| shown.frame.positions.len() == scene.frame.positions.len());
-        let same_colors = same_count && shown.is_some_and(|shown| shown.same_colors(scene));
+        let before = shown.as_ref().map(|shown| &shown.scene);
+        let is_textured = self.can_show_textures(scene);
+        let same_mode = shown.as_ref().is_some_and(|shown| shown.is_textured == is_textured);
+        let same_mesh = same_mode && before.is_some_and(|before| before.same_mesh(scene));
+        let same_frame = before.is_some_and(|before| Arc::ptr_eq(&before.frame, &scene.frame));
+        let n_vertices = scene.frame.positions.len();
+        let same_count = before.is_some_and(|before| before.frame.positions.len() == n_vertices);
+        let same_colors = same_mode && same_count && before.is_some_and(|before| before.same_colors(scene));
+        let same_bases = same_mode && same_count && before.is_some_and(|before| before.same_bases(scene));
+        let same_flaws = before.is_some_and(|before| before.same_flaws(scene));
 
         let mut rebind = false;
         if !same_mesh {
-            self.chunks = self.upload_corners(device, queue, bytemuck::cast_slice(&scene.triangles));
+            self.chunks = self.upload_chunks(gpu, scene, is_textured);
             self.edges.clear();
             rebind = true;
         }
         if !same_frame {
-            rebind |= self.upload_frame(device, queue, &scene.frame);
+            rebind |= self.upload_frame(gpu, &scene.frame);
         }
         if !same_colors {
-            vertex_colors(scene, scene.frame.positions.len(), &mut self.mixed);
-            rebind |= self.colors.write(device, queue, bytemuck::cast_slice(&self.mixed)) == Written::Anew;
+            vertex_colors(scene, n_vertices, is_textured, &mut self.mixed);
+            rebind |= self.colors.write(gpu, bytemuck::cast_slice(&self.mixed)) == Written::Anew;
+        }
+        if !same_bases {
+            let n_bases = if is_textured { n_vertices } else { 0 };
+            rebind |= self.bases.write(gpu, bytemuck::cast_slice(&base_roots(scene, n_bases))) == Written::Anew;
+        }
+        if !same_flaws {
+            let faces = scene.flaws.as_deref().unwrap_or_default();
+            self.flaws = self.upload_corners(gpu, bytemuck::cast_slice(faces));
         }
         if rebind {
-            self.bind(device, layouts);
+            self.bind(gpu, layouts);
         }
-        let needs_edges =
-            scene.wireframe && self.edges.is_empty() && self.chunks.iter().any(|chunk| chunk.fetch.is_none());
-        if needs_edges {
-            let edges = unique_edges(&scene.triangles);
-            self.edges = self.upload_corners(device, queue, bytemuck::cast_slice(&edges));
+        self.upload_textures(gpu, layouts, scene, is_textured);
+        let cannot_fetch = self.chunks.iter().any(|chunk| chunk.fetch.is_none());
+        if scene.wireframe && self.edges.is_empty() && cannot_fetch {
+            let edges = marked_edges(&scene.triangles, scene.unmarked_edges.as_deref());
+            self.edges = self.upload_corners(gpu, bytemuck::cast_slice(&edges));
         }
-        self.shown = Some(scene.clone());
+        self.shown = Some(Shown { scene: scene.clone(), is_textured });
     }
 
-    /// Draws the surface, with its edges if asked.
-    pub(super) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, pipelines: &Pipelines, wireframe: bool) {
-        let (Some(positions), Some(normals), Some(colors)) =
-            (self.positions.buffer(), self.normals.buffer(), self.colors.buffer())
-        else {
-            return;
-        };
-        if wireframe
-            && let Some(pipeline) = &pipelines.wireframe
-            && self.chunks.iter().all(|chunk| chunk.fetch.is_some())
-        {
-            pass.set_pipeline(pipeline);
-            for chunk in &self.chunks {
-                pass.set_bind_group(1, chunk.fetch.as_ref(), &[]);
-                pass.draw(0..chunk.n_corners, 0..1);
+    /// Draws the surface, with its edges and textures if asked.
+    pub(super) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, pipelines: Pipelines<'_>, scene: &ViewScene) {
+        let Some(program) = self.program(scene) else {
+            let program = if scene.see_through { Program::SurfaceThrough } else { Program::Surface };
+            if self.set_vertices(pass) && pipelines.set(pass, program) {
+                self.chunks.iter().for_each(|chunk| chunk.corners.draw(pass));
+                if scene.wireframe && pipelines.set(pass, Program::Edges) {
+                    self.edges.iter().for_each(|edges| edges.draw(pass));
+                }
             }
             return;
+        };
+        if !pipelines.set(pass, program) {
+            return;
         }
-        pass.set_pipeline(&pipelines.surface);
-        for (slot, buffer) in (0..).zip([positions, normals, colors]) {
+        let is_textured = self.shown.as_ref().is_some_and(|shown| shown.is_textured);
+        for chunk in &self.chunks {
+            pass.set_bind_group(1, chunk.fetch.as_ref(), &[]);
+            let (first, end) = (chunk.first, chunk.first + chunk.corners.n);
+            if is_textured {
+                self.textures.for_each_run(first..end, |texture, run| {
+                    pass.set_bind_group(2, texture, &[]);
+                    pass.draw(run.start - first..run.end - first, 0..1);
+                });
+            } else {
+                pass.draw(0..chunk.corners.n, 0..1);
+            }
+        }
+    }
+
+    /// Draws the faces that are pointed out over the surface; faintly also where it hides them.
+    pub(super) fn draw_flaws(&self, pass: &mut wgpu::RenderPass<'_>, pipelines: Pipelines<'_>) {
+        if self.flaws.is_empty() || !self.set_vertices(pass) {
+            return;
+        }
+        for program in [Program::FlawsHidden, Program::Flaws] {
+            if pipelines.set(pass, program) {
+                self.flaws.iter().for_each(|faces| faces.draw(pass));
+            }
+        }
+    }
+
+    /// The program that fetches vertices by number, where one is needed and can be had.
+    fn program(&self, scene: &ViewScene) -> Option<Program> {
+        if self.chunks.iter().any(|chunk| chunk.fetch.is_none()) {
+            return None;
+        }
+        let is_textured = self.shown.as_ref().is_some_and(|shown| shown.is_textured);
+        match (is_textured, scene.wireframe, scene.see_through) {
+            (false, false, _) => None,
+            (false, true, false) => Some(Program::Wired),
+            (false, true, true) => Some(Program::WiredThrough),
+            (true, false, false) => Some(Program::Textured),
+            (true, false, true) => Some(Program::TexturedThrough),
+            (true, true, false) => Some(Program::TexturedWired),
+            (true, true, true) => Some(Program::TexturedWiredThrough),
+        }
+    }
+
+    fn set_vertices(&self, pass: &mut wgpu::RenderPass<'_>) -> bool {
+        let buffers = [self.positions.buffer(), self.normals.buffer(), self.colors.buffer()];
+        for (slot, buffer) in (0..).zip(buffers) {
+            let Some(buffer) = buffer else { return false };
             pass.set_vertex_buffer(slot, buffer.slice(..));
         }
-        self.chunks.iter().for_each(|chunk| chunk.draw_indexed(pass));
-        if wireframe && !self.edges.is_empty() {
-            pass.set_pipeline(&pipelines.edges);
-            self.edges.iter().for_each(|chunk| chunk.draw_indexed(pass));
+        true
+    }
+
+    /// Whether there are textures to see, and vertices can be fetched by number for them.
+    fn can_show_textures(&self, scene: &ViewScene) -> bool {
+        let bytes = size_of_val(scene.frame.positions.as_slice()) as u64;
+        let fits = bytes <= self.largest_binding;
+        fits && scene.shows_textures() && scene.textures.as_ref().is_some_and(|set| set.fits(scene.triangles.len()))
+    }
+
+    fn upload_textures(&mut self, gpu: &Gpu, layouts: &Layouts, scene: &ViewScene, is_textured: bool) {
+        match &scene.textures {
+            Some(set) if is_textured => {
+                if !self.textures.hold(set) {
+                    self.textures.upload(gpu, &layouts.texture, set);
+                }
+            }
+            Some(set) if self.textures.hold(set) => {}
+            _ => self.textures.clear(),
         }
     }
 
     /// Positions and normals. Normals of another count are not used (the surface is shaded flat), but their buffer must exist.
-    fn upload_frame(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, frame: &SurfaceFrame) -> bool {
+    fn upload_frame(&mut self, gpu: &Gpu, frame: &SurfaceFrame) -> bool {
         let positions: &[u8] = bytemuck::cast_slice(&frame.positions);
         let normals = if frame.normals.len() == frame.positions.len() {
-            self.normals.write(device, queue, bytemuck::cast_slice(&frame.normals))
+            self.normals.write(gpu, bytemuck::cast_slice(&frame.normals))
         } else {
-            self.normals.reserve(device, positions.len() as u64)
+            self.normals.reserve(gpu, positions.len() as u64)
         };
-        let positions = self.positions.write(device, queue, positions);
+        let positions = self.positions.write(gpu, positions);
         Written::Anew == positions || Written::Anew == normals
     }
 
-    /// Corners in as many buffers as the device's limits ask for. A chunk holds whole triangles and whole edges.
-    fn upload_corners(&self, device: &wgpu::Device, queue: &wgpu::Queue, corners: &[u32]) -> Vec<Chunk> {
-        let most = (self.largest_chunk / CORNER_BYTES / 6 * 6).max(6) as usize;
-        let upload = |corners: &[u32]| {
-            let buffer = device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("corners"),
-                size: size_of_val(corners) as u64,
-                usage: self.corner_usage(),
-                mapped_at_creation: false,
-            });
-            queue.write_buffer(&buffer, 0, bytemuck::cast_slice(corners));
-            Chunk { buffer, n_corners: corners.len() as u32, fetch: None }
-        };
-        corners.chunks(most).map(upload).collect()
+    /// The triangles with what belongs to them, in as many parts as the device's limits ask for.
+    fn upload_chunks(&self, gpu: &Gpu, scene: &ViewScene, is_textured: bool) -> Vec<Chunk> {
+        let most = whole_triangles(self.largest_chunk);
+        let storage = self.largest_binding > 0;
+        (0..scene.triangles.len())
+            .step_by(most)
+            .map(|start| {
+                let end = (start + most).min(scene.triangles.len());
+                Chunk::new(gpu, scene, start..end, storage, is_textured)
+            })
+            .collect()
     }
 
-    fn corner_usage(&self) -> wgpu::BufferUsages {
-        let usage = wgpu::BufferUsages::INDEX | wgpu::BufferUsages::COPY_DST;
-        if self.largest_binding > 0 { usage | wgpu::BufferUsages::STORAGE } else { usage }
+    /// Corners for indexed drawing, in as many parts as the device's limits ask for: whole triangles and whole edges.
+    fn upload_corners(&self, gpu: &Gpu, corners: &[u32]) -> Vec<Corners> {
+        let most = (self.largest_chunk / 4 / 6 * 6).max(6) as usize;
+        corners.chunks(most).map(|corners| Corners::new(gpu, corners, false)).collect()
     }
 
     /// Binds the buffers for fetching by number, where that is possible and they are not too large for it.
-    fn bind(&mut self, device: &wgpu::Device, layouts: &Layouts) {
-        for chunk in &mut self.chunks {
-            chunk.fetch = None;
-        }
+    fn bind(&mut self, gpu: &Gpu, layouts: &Layouts) {
+        self.chunks.iter_mut().for_each(|chunk| chunk.fetch = None);
         let (Some(layout), Some(positions), Some(normals), Some(colors)) =
             (&layouts.fetch, self.positions.buffer(), self.normals.buffer(), self.colors.buffer())
         else {
@@ -162,29 +241,22 @@ impl Surface {
         if positions.size() > self.largest_binding {
             return;
         }
+        let bases = self.bases.buffer().unwrap_or(&self.nothing);
         for chunk in &mut self.chunks {
-            let buffers = [positions, normals, colors, &chunk.buffer];
-            let entries = [0, 1, 2, 3].map(|binding: usize| wgpu::BindGroupEntry {
-                binding: binding as u32,
-                resource: buffers[binding].as_entire_binding(),
-            });
-            let group = wgpu::BindGroupDescriptor { label: Some("fetch"), layout, entries: &entries };
-            chunk.fetch = Some(device.create_bind_group(&group));
+            chunk.bind(gpu, layout, [positions, normals, colors, bases], &self.nothing);
         }
     }
 }
 
-impl Chunk {
-    fn draw_indexed(&self, pass: &mut wgpu::RenderPass<'_>) {
-        pass.set_index_buffer(self.buffer.slice(..), wgpu::IndexFormat::Uint32);
-        pass.draw_indexed(0..self.n_corners, 0, 0..1);
-    }
-}
-
-/// Each edge of the triangles once, lower vertex first, sorted.
-fn unique_edges(triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
+/// Each edge of the triangles once, lower vertex first, sorted; without those that are not to be drawn.
+fn marked_edges(triangles: &[[u32; 3]], unmarked: Option<&[u8]>) -> Vec<[u32; 2]> {
     let edge = |a: u32, b: u32| [a.min(b), a.max(b)];
-    let mut edges: Vec<_> = triangles.iter().flat_map(|&[a, b, c]| [edge(a, b), edge(b, c), edge(c, a)]).collect();
+    let of_triangle = |(t, &[a, b, c]): (usize, &[u32; 3])| {
+        let bits = unmarked.and_then(|bits| bits.get(t)).copied().unwrap_or(0);
+        let across = [edge(b, c), edge(c, a), edge(a, b)];
+        (0..3).filter(move |k| bits >> k & 1 == 0).map(move |k| across[k])
+    };
+    let mut edges: Vec<_> = triangles.iter().enumerate().flat_map(of_triangle).collect();
     edges.sort_unstable();
     edges.dedup();
     edges

@@ -2,7 +2,7 @@
 
 use super::super::camera::sphere;
 use super::super::ramp::linear;
-use super::super::{Projection, Shading, Theme, ViewScene};
+use super::super::{Coloring, Matcap, Projection, Shading, Theme, ViewScene};
 use bytemuck::{Pod, Zeroable};
 use glam::{Mat4, Vec2, Vec3};
 
@@ -16,6 +16,8 @@ const GRID_DROP: f32 = 0.003;
 const MAJOR: f32 = 10.0;
 /// Smallest distance in front of the eye, in distances to the target: marks behind it are not drawn.
 const NEAREST: f32 = 1e-3;
+/// How much a surface that is seen through hides where one looks straight at it (by eye).
+const THROUGH: f32 = 0.16;
 
 /// The uniforms as the shaders read them (`Picture` in common.wgsl, with the meaning of each number).
 #[repr(C)]
@@ -25,6 +27,7 @@ pub(super) struct Picture {
     clip_from_view: [f32; 16],
     viewport: [f32; 4],
     modes: [f32; 4],
+    look: [f32; 4],
     light: Light,
     grid: [f32; 4],
     grid_extent: [f32; 4],
@@ -43,6 +46,7 @@ struct Light {
     sky: [f32; 4],
     ground: [f32; 4],
     rim: [f32; 4],
+    flaw: [f32; 4],
     wire: [f32; 4],
     grid_color: [f32; 4],
 }
@@ -70,10 +74,27 @@ impl Picture {
                 WIRE_HALF_WIDTH * density,
                 NEAREST,
             ],
+            look: [
+                if scene.see_through { THROUGH } else { 1.0 },
+                matcap(scene.shading),
+                if scene.coloring == Coloring::Plain { 0.0 } else { scene.color_opacity.clamp(0.0, 1.0) },
+                0.0,
+            ],
             light: light(scene.theme),
             grid,
             grid_extent,
         }
+    }
+}
+
+/// The number of a painted ball in the shaders; 0 for lamps.
+fn matcap(shading: Shading) -> f32 {
+    match shading {
+        Shading::Smooth | Shading::Flat => 0.0,
+        Shading::Matcap(Matcap::Clay) => 1.0,
+        Shading::Matcap(Matcap::Porcelain) => 2.0,
+        Shading::Matcap(Matcap::Metal) => 3.0,
+        Shading::Matcap(Matcap::Stripes) => 4.0,
     }
 }
 
@@ -106,6 +127,7 @@ fn light(theme: Theme) -> Light {
             sky: lamp([222, 232, 255], 0.20),
             ground: lamp([168, 142, 126], 0.16),
             rim: lamp([214, 226, 255], 0.50),
+            flaw: lit([255, 48, 150], 1.0),
             wire: encoded([14, 16, 20], 0.55),
             grid_color: encoded([220, 228, 240], 0.16),
         },
@@ -119,6 +141,7 @@ fn light(theme: Theme) -> Light {
             sky: lamp([226, 234, 255], 0.24),
             ground: lamp([178, 158, 146], 0.20),
             rim: lamp([235, 242, 255], 0.18),
+            flaw: lit([255, 20, 130], 1.0),
             wire: encoded([28, 32, 40], 0.55),
             grid_color: encoded([40, 48, 62], 0.20),
         },
