@@ -167,11 +167,11 @@ impl Session {
         self.status = Status::default();
         self.learning = None;
         self.compare = None;
-        self.sent = None;
         self.welcome_to(sample);
         self.take_settings(opened.restored.as_deref_mut());
         let origin = opened.restored.as_ref().map(|restored| restored.origin.clone());
         self.shows_rest = false;
+        self.sent = None;
         self.open = Some(Open::new(opened, sample));
         self.arrived(origin);
         self.synchronize();

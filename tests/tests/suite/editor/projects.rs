@@ -62,6 +62,11 @@ fn a_project_opens_as_it_was_left_and_is_not_taken_for_changed() {
     let largest = largest.map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
     // A tenth of a cell: the iteration goes on a little, with nothing learned from the steps before.
     assert!(largest < 5e-3, "settling again moved the surface by {largest}");
+    // Where another mesh was on screen, too.
+    let mut other = session_with(sheet(4));
+    other.start(Job::Open(to));
+    wait_until(&mut other, "the project is open", |session| document(session).model().mesh.n_vertices() == 441);
+    settle(&mut other);
     // Placing goes on with fresh names, and can be undone to what was opened, not beyond.
     again.apply(Command::Hold { kind: GroupKind::Anchor, vertices: vec![VertexId(0)] });
     assert_eq!(document(&again).scene().groups.last().expect("placed").name, "Anchor 3");
