@@ -1,5 +1,6 @@
 //! The whole window on the software adapter: real events in, state and pixels out.
 
+mod handles;
 mod projects;
 
 use std::time::{Duration, Instant};
@@ -325,7 +326,7 @@ fn an_anchor_made_by_a_click_is_listed_and_can_be_let_go_from_the_list() {
     window.run_steps(2);
     assert_eq!(document(window.state_mut().session()).scene().groups[0].kind, GroupKind::Anchor);
     assert!(window.query_by_label("Anchor 1").is_some(), "the anchor is not listed");
-    window.get_by_label("×").click();
+    window.get_by_label("Let go of Anchor 1").click();
     window.run_steps(2);
     assert!(document(window.state_mut().session()).scene().groups.is_empty());
 }

@@ -4,6 +4,7 @@ use egui::{Event, Key, Modifiers};
 
 use super::peek::Peek;
 use super::{Action, Session};
+use crate::tools::{Input, ToolKey};
 
 /// Two digits typed within this time, with nothing else between, are one number. By hand: slow typing takes half of it.
 const TYPED_TOGETHER_SECS: f64 = 0.6;
@@ -35,6 +36,9 @@ impl Keyboard {
         // An open menu closes by Esc itself.
         if !egui::Popup::is_any_open(ctx) && ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {
             session.escape();
+        }
+        if session.tool_takes_numbers() {
+            numbers(ctx, session);
         }
         self.peek.take(ctx, session);
         let actions = match ctx.memory(|memory| memory.focused()) {
@@ -94,6 +98,33 @@ fn works_controls(key: Key) -> bool {
 fn is_not_for_text(key: Key, modifiers: Modifiers) -> bool {
     let is_function = key.name().len() > 1 && key.name().starts_with('F');
     is_function || (modifiers.command && matches!(key, Key::O | Key::P | Key::Q | Key::S))
+}
+
+/// Keys of a number and of the axes, while a drag or a part of the gizmo takes them.
+fn numbers(ctx: &egui::Context, session: &mut Session) {
+    let taken = |key: &Key| match key {
+        Key::Minus => Some(ToolKey::Sign('-')),
+        Key::Period | Key::Comma => Some(ToolKey::Sign('.')),
+        Key::Backspace => Some(ToolKey::Erase),
+        Key::Enter => Some(ToolKey::Enter),
+        Key::X => Some(ToolKey::Axis(0)),
+        Key::Y => Some(ToolKey::Axis(1)),
+        Key::Z => Some(ToolKey::Axis(2)),
+        _ => {
+            let digit = DIGITS.iter().position(|digit| digit == key)?;
+            char::from_digit(digit as u32, 10).map(ToolKey::Sign)
+        }
+    };
+    let mut keys = Vec::new();
+    ctx.input_mut(|input| {
+        input.events.retain(|event| {
+            let Event::Key { key, pressed: true, modifiers, .. } = event else { return true };
+            let key = taken(key).filter(|_| !modifiers.command && !modifiers.alt);
+            keys.extend(key);
+            key.is_none()
+        });
+    });
+    keys.into_iter().for_each(|key| session.input(Input::Key(key)));
 }
 
 /// While F is held the mouse, moved sideways, sizes the brush.

@@ -2,6 +2,7 @@
 //! does goes through here, and so can a test.
 
 mod compare;
+mod handles;
 mod hints;
 mod method;
 mod paint;
@@ -25,7 +26,7 @@ use super::{
 };
 use crate::document::{Command, Document, GroupKind, History, SelectMode};
 use crate::solving::{Measure, SolveReport, SolveRequest, Worker};
-use crate::tools::{Context, Input, Marks, Options, Tool, ToolKind, View};
+use crate::tools::{Context, Input, Marks, Options, Pivot, Tool, ToolKey, ToolKind, View};
 
 /// Everything behind the window.
 pub struct Session {
@@ -48,6 +49,7 @@ pub struct Session {
     pub learning: Option<Learning>,
     /// Methods side by side, while that is open.
     compare: Option<super::Compare>,
+    typed_placement: handles::Typed,
     wake: Arc<dyn Fn() + Send + Sync>,
     viewport_size: Vec2,
     worker: Worker,
@@ -92,6 +94,7 @@ impl Session {
             habits: Habits::default(),
             learning: None,
             compare: None,
+            typed_placement: None,
             wake: wake.clone(),
             viewport_size: Vec2::new(800.0, 600.0),
             worker: Worker::start(move || wake_worker())?,
@@ -163,6 +166,8 @@ impl Session {
         }
         self.options.fit_patch(f64::from(opened.model.diagonal()), opened.model.mean_edge());
         self.options.paint.fit(f64::from(opened.model.diagonal()), opened.model.mean_edge());
+        self.options.gizmo.fit(f64::from(opened.model.diagonal()));
+        self.typed_placement = None;
         self.tool = self.tool_kind.new_tool();
         self.status = Status::default();
         self.learning = None;
@@ -245,6 +250,13 @@ impl Session {
 
     /// Carries out a command; a refusal becomes a notice.
     pub fn apply(&mut self, command: Command) {
+        if self.tool.waits_for_number() {
+            self.input(Input::Key(ToolKey::Enter));
+        }
+        self.carry_out(command);
+    }
+
+    fn carry_out(&mut self, command: Command) {
         let Some(open) = &mut self.open else { return };
         if let Some(learning) = &mut self.learning
             && matches!(command, Command::Paint { .. } | Command::Fill { .. } | Command::FillAll(_))
@@ -263,9 +275,11 @@ impl Session {
 
     /// Takes back the newest step.
     pub fn undo(&mut self) {
-        if self.tool.is_active() {
-            // What is under way is the newest step.
-            self.cancel_tool();
+        let waits = self.tool.waits_for_number() && self.document().is_none_or(|document| !document.in_step());
+        let is_step = self.tool.is_active() && !waits;
+        self.cancel_tool();
+        if is_step {
+            // What was under way was the newest step.
         } else if let Some(open) = &mut self.open {
             let undone = open.document.undo().is_some();
             if let Some(welcome) = &mut self.welcome {
@@ -317,8 +331,13 @@ impl Session {
 
     fn cancel_tool(&mut self) {
         if self.tool.is_active() {
-            self.input(Input::Key(crate::tools::ToolKey::Escape));
+            self.input(Input::Key(ToolKey::Escape));
         }
+    }
+
+    /// Whether digits, signs and axis keys are for the tool now.
+    pub fn tool_takes_numbers(&self) -> bool {
+        self.tool.takes_numbers()
     }
 
     /// Passes input to the tool in hand and carries out what it wants.
@@ -337,8 +356,11 @@ impl Session {
         if let Some(r) = reaction.rigidity {
             self.options.rigidity = r;
         }
+        if let Some(point) = reaction.pivot {
+            self.options.gizmo.pivot = Pivot::Point(point);
+        }
         for command in reaction.commands {
-            self.apply(command);
+            self.carry_out(command);
         }
         self.tell_compare();
     }

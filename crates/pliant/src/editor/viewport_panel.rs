@@ -10,7 +10,7 @@ use super::look::ramp_max;
 use super::{Action, NoticeKind, Session, theme};
 use crate::document::{GroupKind, Selection};
 use crate::solving::SolveState;
-use crate::tools::{Cursor, Input, Modifiers, Pointer, ToolKind};
+use crate::tools::{Cursor, Input, Label, Modifiers, Pointer, ToolKind};
 use crate::viewport::{Camera, DeviceWatch, Dot, Line, Renderer, SurfaceFrame, ViewScene, samples_for, watch_device};
 
 /// Larger groups show only some of their vertices: thousands of dots hide the surface (by eye).
@@ -156,6 +156,10 @@ impl ViewportPanel {
         let (events, scroll, pinch) =
             ui.input(|input| (input.events.clone(), input.smooth_scroll_delta().y, input.zoom_delta()));
         for event in events {
+            if matches!(event, Event::PointerButton { .. }) && (is_over || self.gesture.is_some()) {
+                // The panels beside the picture are made before it: they show in the next frame what a click did.
+                ui.ctx().request_repaint();
+            }
             match event {
                 Event::PointerButton { pos, button, pressed: true, modifiers } if is_over => {
                     self.press(pos, button, modifiers, rect, session);
@@ -301,11 +305,29 @@ impl ViewportPanel {
             );
             return;
         }
-        let outline = session.marks().outline;
+        let marks = session.marks();
+        if let Some(label) = &marks.label {
+            self.write(ui, rect, label, session.look.theme);
+        }
+        let outline = marks.outline;
         if outline.len() > 1 {
             let points: Vec<Pos2> = outline.iter().map(|p| rect.min + egui::vec2(p.x, p.y)).collect();
             ui.painter().add(egui::Shape::closed_line(points, egui::Stroke::new(1.5, theme::ACCENT)));
         }
+    }
+
+    /// Words beside what they are about, on a ground of their own so that they can be read over any surface.
+    fn write(&self, ui: &egui::Ui, rect: Rect, label: &Label, theme: crate::viewport::Theme) {
+        let palette = theme::palette(theme);
+        let font = egui::TextStyle::Monospace.resolve(ui.style());
+        let text = ui.painter().layout_no_wrap(label.text.clone(), font, palette.text);
+        let at = rect.min + egui::vec2(label.px.x + 18.0, label.px.y + 18.0);
+        let ground = Rect::from_min_size(at, text.size()).expand2(egui::vec2(6.0, 3.0));
+        // Beside the pointer, but never beyond the viewport.
+        let inside = (rect.max - ground.max).min(egui::Vec2::ZERO);
+        let inside = inside.max(rect.min - ground.min);
+        ui.painter().rect_filled(ground.translate(inside), 4.0, palette.panel.gamma_multiply(0.9));
+        ui.painter().galley(at + inside, text, palette.text);
     }
 
     /// A processor draws one sample a pixel while things move, and smooth edges once they have rested for a moment.

@@ -222,7 +222,7 @@ impl Tool for BrushTool {
             }
             Input::Key(ToolKey::Eyedropper) => {
                 let r = self.hover.map(|pick| context.document.scene().rigidity.as_slice()[pick.vertex.index()]);
-                return Reaction { commands: Vec::new(), rigidity: r };
+                return Reaction { rigidity: r, ..Reaction::default() };
             }
             Input::Release(_) | Input::Key(_) => {}
         }

@@ -207,9 +207,9 @@ impl Tool for FillTool {
             }
             Input::Key(ToolKey::Eyedropper) => {
                 let r = self.hover.map(|pick| context.document.scene().rigidity.as_slice()[pick.vertex.index()]);
-                return Reaction { commands: Vec::new(), rigidity: r };
+                return Reaction { rigidity: r, ..Reaction::default() };
             }
-            Input::Press(_) | Input::Key(ToolKey::Delete) => {}
+            Input::Press(_) | Input::Key(_) => {}
         }
         Reaction::default()
     }

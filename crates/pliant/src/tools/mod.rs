@@ -7,6 +7,7 @@ mod brush;
 mod fill;
 mod gizmo;
 mod grow;
+mod length;
 mod mirror;
 mod mouse;
 mod options;
@@ -18,14 +19,15 @@ mod select;
 mod surface;
 mod tool;
 
-pub use gizmo::{Gizmo, GizmoPart};
+pub use gizmo::{Axes, Gizmo, GizmoPart, GizmoSettings, GizmoShown, Pivot};
+pub use length::{fixed, length};
 pub use mirror::{Mirror, MirrorKind, MirrorOptions};
 pub use mouse::{Gesture, VIEW_GESTURES};
 pub use options::{BrushMode, Options, SelectShape};
 pub use paint_options::{BrushReach, BrushUnit, FillBoundary, PaintOptions};
 pub use prepared::Prepared;
 pub use surface::{Pick, Surface};
-pub use tool::{Context, Cursor, Input, Marks, Modifiers, Pointer, Reaction, Tool, ToolKey, View};
+pub use tool::{Context, Cursor, Input, Label, Marks, Modifiers, Pointer, Reaction, Tool, ToolKey, View};
 
 use crate::document::GroupKind;
 

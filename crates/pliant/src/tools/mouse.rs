@@ -22,11 +22,18 @@ impl ToolKind {
             ToolKind::Handle => &[
                 ("Click the surface", "a handle there"),
                 ("Drag a handle", "bend the surface"),
-                ("Shift while dragging", "keep to an axis"),
-                ("Drag an arrow, ring or square of the gizmo", "move, turn or scale"),
-                ("Ctrl while turning with the gizmo", "steps of 15°"),
+                ("Shift + click handles", "work on several"),
+                ("Drag an arrow, square, ring or knob of the gizmo", "move, turn or scale"),
+                ("Click one and type a number, Enter", "move, turn or scale by exactly that"),
+                ("X, Y, Z while dragging", "lock an axis"),
+                ("Shift while dragging", "keep to the nearest axis"),
+                ("Ctrl while dragging", "steps of the grid, of 15°, of a tenth"),
             ],
-            ToolKind::Anchor => &[("Click the surface", "hold it where it is"), ("Click an anchor", "choose it")],
+            ToolKind::Anchor => &[
+                ("Click the surface", "hold it where it is"),
+                ("Click an anchor", "choose it"),
+                ("Shift + click anchors", "choose several"),
+            ],
             ToolKind::Select => &[
                 ("Drag", "select what is inside of the box or lasso"),
                 ("Shift while selecting", "add"),

@@ -4,7 +4,7 @@
 use pliant_solver::Rigidity;
 use serde::{Deserialize, Serialize};
 
-use super::PaintOptions;
+use super::{GizmoSettings, PaintOptions};
 
 /// What a brush dab does to r.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -50,6 +50,8 @@ pub struct Options {
     pub select_shape: SelectShape,
     /// Whether the active handle has a gizmo.
     pub show_gizmo: bool,
+    /// What the gizmo shows, about which point and along which axes it works.
+    pub gizmo: GizmoSettings,
     /// Whether box and lasso take hidden vertices too.
     pub select_through: bool,
 }
@@ -72,6 +74,7 @@ impl Options {
         self.brush_radius_px = self.brush_radius_px.clamp(*radius.start(), *radius.end());
         self.patch_rings = self.patch_rings.min(Options::MOST_PATCH_RINGS);
         self.paint = self.paint.in_range();
+        self.gizmo = self.gizmo.in_range();
         self
     }
 
@@ -90,6 +93,7 @@ impl Default for Options {
             patch_rings: 2,
             select_shape: SelectShape::Box,
             show_gizmo: true,
+            gizmo: GizmoSettings::default(),
             select_through: true,
         }
     }

@@ -33,6 +33,16 @@ pub enum ToolKey {
     Delete,
     /// Take over the r under the pointer.
     Eyedropper,
+    /// Make the surface under the pointer, or under the next click, the pivot.
+    Pivot,
+    /// A digit, a point or a minus of a number that is typed.
+    Sign(char),
+    /// Take back the last sign.
+    Erase,
+    /// Choose an axis: x = 0, y = 1, z = 2.
+    Axis(usize),
+    /// Keep what is typed.
+    Enter,
 }
 
 /// What happens to a tool. Press, drag and release are of the primary button.
@@ -82,11 +92,13 @@ pub struct Reaction {
     pub commands: Vec<Command>,
     /// r to take over as the current one.
     pub rigidity: Option<u16>,
+    /// World position to take over as the pivot.
+    pub pivot: Option<glam::DVec3>,
 }
 
 impl From<Vec<Command>> for Reaction {
     fn from(commands: Vec<Command>) -> Reaction {
-        Reaction { commands, rigidity: None }
+        Reaction { commands, ..Reaction::default() }
     }
 }
 
@@ -101,6 +113,17 @@ pub struct Marks {
     pub outline: Vec<Vec2>,
     /// What a click would fill.
     pub preview: Option<Preview>,
+    /// Words, next to the pointer for instance.
+    pub label: Option<Label>,
+}
+
+/// A few words over the surface.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Label {
+    /// What they are about, in points from the viewport's top left.
+    pub px: Vec2,
+    /// One line.
+    pub text: String,
 }
 
 /// Shape of the mouse pointer.
@@ -130,6 +153,14 @@ pub trait Tool: Send {
     fn is_active(&self) -> bool;
     /// Whether it has more to do for the drag it was last told of, and wants to be told again.
     fn is_behind(&self) -> bool {
+        false
+    }
+    /// Whether digits and axis keys are for it now.
+    fn takes_numbers(&self) -> bool {
+        false
+    }
+    /// Whether nothing but a number, or the end of it, is missing: any other command ends it.
+    fn waits_for_number(&self) -> bool {
         false
     }
 }

@@ -36,8 +36,17 @@ fn act(session: &mut Session, dice: &mut Dice) {
         8..=9 => session.input(Input::Release(dice.pointer())),
         10 => session.input(Input::Hover(dice.pointer())),
         11 => {
-            let keys = [ToolKey::Escape, ToolKey::Delete, ToolKey::Eyedropper];
-            session.input([Input::Leave, Input::Key(keys[dice.below(3) as usize])][dice.below(2) as usize]);
+            let keys = [
+                ToolKey::Escape,
+                ToolKey::Delete,
+                ToolKey::Eyedropper,
+                ToolKey::Pivot,
+                ToolKey::Sign(['-', '.', '3'][dice.below(3) as usize]),
+                ToolKey::Axis(dice.below(3) as usize),
+                ToolKey::Erase,
+                ToolKey::Enter,
+            ];
+            session.input([Input::Leave, Input::Key(keys[dice.below(8) as usize])][dice.below(2) as usize]);
         }
         12 => session.undo(),
         13 => session.redo(),

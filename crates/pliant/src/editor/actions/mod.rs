@@ -7,6 +7,7 @@
 mod edit;
 mod entry;
 mod file;
+mod handle;
 mod help;
 mod pose;
 mod rigidity;
@@ -55,6 +56,7 @@ impl Action {
         Menu { name: "File", actions: file::ALL },
         Menu { name: "Edit", actions: edit::ALL },
         Menu { name: "Select", actions: select::ALL },
+        Menu { name: "Handle", actions: handle::ALL },
         Menu { name: "Rigidity", actions: rigidity::ALL },
         Menu { name: "Pose", actions: pose::ALL },
         Menu { name: "View", actions: view::ALL },

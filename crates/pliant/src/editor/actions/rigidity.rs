@@ -120,13 +120,13 @@ actions! {
     .unless(no_painting_tool)
     .does(|session| session.input(Input::Key(ToolKey::Eyedropper)));
     /// A smaller brush.
-    BRUSH_SMALLER = Entry::new("rigidity.brush-smaller", "Smaller brush", "Make the brush smaller")
+    BRUSH_SMALLER = Entry::new("rigidity.brush-smaller", "Smaller brush", "Make the brush, or the patch of the next handle, smaller")
         .key(NONE, Key::OpenBracket)
-        .does(|session| session.options.scale_brush(1.0 / BRUSH_STEP));
+        .does(|session| scale_brush(session, 1.0 / BRUSH_STEP));
     /// A larger brush.
-    BRUSH_LARGER = Entry::new("rigidity.brush-larger", "Larger brush", "Make the brush larger")
+    BRUSH_LARGER = Entry::new("rigidity.brush-larger", "Larger brush", "Make the brush, or the patch of the next handle, larger")
         .key(NONE, Key::CloseBracket)
-        .does(|session| session.options.scale_brush(BRUSH_STEP));
+        .does(|session| scale_brush(session, BRUSH_STEP));
 }
 
 fn toggle_mirror(session: &mut Session, kind: MirrorKind) {
@@ -154,4 +154,12 @@ fn no_middle_edge(session: &Session) -> Option<&'static str> {
 fn no_painting_tool(session: &Session) -> Option<&'static str> {
     let paints = matches!(session.tool_kind(), ToolKind::Brush | ToolKind::Fill);
     (!paints).then_some("Take the brush or the fill tool first")
+}
+
+fn scale_brush(session: &mut Session, factor: f32) {
+    if matches!(session.tool_kind(), ToolKind::Handle | ToolKind::Anchor) {
+        session.resize_patch(if factor > 1.0 { 1 } else { -1 });
+    } else {
+        session.options.scale_brush(factor);
+    }
 }

@@ -2,7 +2,7 @@
 
 use egui::{CollapsingHeader, RichText, ScrollArea, Ui};
 
-use super::{history, mesh_section, mirror, paint, sections, solver, view, weld};
+use super::{gizmo, handles, history, mesh_section, mirror, paint, sections, solver, view, weld};
 use crate::editor::{Action, Session};
 use crate::tools::ToolKind;
 
@@ -18,7 +18,7 @@ pub(in crate::editor) fn inspector(ui: &mut Ui, session: &mut Session) -> Option
         ui.label(RichText::new(kind.description()).weak());
         ui.add_space(4.0);
         match kind {
-            ToolKind::Handle | ToolKind::Anchor => sections::patch(ui, session),
+            ToolKind::Handle | ToolKind::Anchor => gizmo::tool(ui, session, &mut chosen),
             ToolKind::Select => sections::select(ui, session, &mut chosen),
             ToolKind::Brush => paint::brush(ui, session),
             ToolKind::Fill => paint::fill(ui, session),
@@ -29,13 +29,19 @@ pub(in crate::editor) fn inspector(ui: &mut Ui, session: &mut Session) -> Option
             paint::rigidity(ui, session, &mut chosen);
         }
         ui.separator();
+        let about_handles = matches!(kind, ToolKind::Handle | ToolKind::Anchor);
+        if about_handles {
+            section(ui, "Handles", true, |ui| handles::handles(ui, session, &mut chosen));
+        }
         if about_rigidity {
             section(ui, "Mirror", true, |ui| mirror::mirror(ui, session, &mut chosen));
             section(ui, "Locks", true, |ui| paint::locks(ui, session, &mut chosen));
         } else {
             section(ui, "Rigidity", true, |ui| paint::rigidity(ui, session, &mut chosen));
         }
-        section(ui, "Handles", true, |ui| sections::handles(ui, session, &mut chosen));
+        if !about_handles {
+            section(ui, "Handles", true, |ui| handles::handles(ui, session, &mut chosen));
+        }
         section(ui, "Solver", true, |ui| solver::solver(ui, session));
         section(ui, "History", false, |ui| history::history(ui, session));
         section(ui, "View", false, |ui| view::view(ui, session));

@@ -2,6 +2,8 @@
 
 mod dialogs;
 mod files;
+mod gizmo;
+mod handles;
 mod help;
 mod history;
 mod icons;
