@@ -68,6 +68,8 @@ fn a_click_in_the_history_goes_to_that_step() {
     for r in [2, 3, 4] {
         window.state_mut().session().apply(pliant::document::Command::FillAll(r));
     }
+    window.get_by_label("History").scroll_to_me();
+    window.run_steps(20);
     window.get_by_label("History").click();
     window.run_steps(20);
     window.get_by_label("Start").scroll_to_me();
