@@ -42,6 +42,8 @@ struct Question {
     touched: Vec<u32>,
     /// Vertices past the radius that the front has visited all the same.
     beyond: Vec<u32>,
+    /// Longest edge that was met: neighbors differ by no more.
+    longest: f64,
 }
 
 /// What is known of a vertex in the question `epoch`.
@@ -127,6 +129,7 @@ impl Question {
             front: BinaryHeap::new(),
             touched: Vec::new(),
             beyond: Vec::new(),
+            longest: 0.0,
         }
     }
 
@@ -147,6 +150,7 @@ impl Question {
         self.front.clear();
         self.touched.clear();
         self.beyond.clear();
+        self.longest = 0.0;
         for (v, p) in start.into_iter().zip(at) {
             self.offer(v, (p.as_dvec3() - point.as_dvec3()).length());
         }
@@ -187,6 +191,7 @@ impl Question {
             let (b, c) = ((corner + 1) % 3, (corner + 2) % 3);
             let length = |i: usize, j: usize| at[i].as_dvec3().distance(at[j].as_dvec3());
             let (to_b, to_c, between) = (length(corner, b), length(corner, c), length(b, c));
+            self.longest = self.longest.max(to_b).max(to_c);
             for (b, c, lengths) in [(b, c, [to_b, to_c, between]), (c, b, [to_c, to_b, between])] {
                 let through = self.visited(ids[b]).and_then(|known| across(lengths, distance, known));
                 let reached = through.unwrap_or(distance + lengths[1]);

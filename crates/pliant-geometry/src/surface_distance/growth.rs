@@ -63,7 +63,7 @@ impl Growth {
         };
         for &v in &self.question.touched {
             let outside = distance(v);
-            if outside <= radius {
+            if outside <= radius || outside > radius + self.question.longest {
                 continue;
             }
             for &face in self.incidence.around(v as usize) {

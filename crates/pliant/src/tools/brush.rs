@@ -259,10 +259,11 @@ impl Tool for BrushTool {
         let radius = radius_at(&pick, context);
         let mut lines: Vec<Line> = circle(pick.position, pick.normal, radius, CIRCLE).collect();
         let mirror = context.prepared.mirror.as_ref();
+        let dots = mirror.map_or_else(Vec::new, |mirror| mirror.dots(context));
         if let Some((center, normal)) = mirror.and_then(|mirror| image_of(&pick, mirror, context)) {
             lines.extend(circle(center, normal, radius, MIRRORED_CIRCLE));
         }
-        Marks { lines, ..Marks::default() }
+        Marks { lines, dots, ..Marks::default() }
     }
 
     fn cursor(&self) -> Cursor {

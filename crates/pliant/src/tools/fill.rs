@@ -244,7 +244,9 @@ impl Tool for FillTool {
             (State::Growing(grow), ..) => Marks { lines: grow.line(context), ..Marks::default() },
             (_, Some(region), Some(_)) if !region.vertices.is_empty() && region.of.is(&Sources::of(context)) => {
                 let preview = Preview { vertices: region.flags.clone(), r: context.options.rigidity };
-                Marks { preview: Some(preview), ..Marks::default() }
+                let mirror = context.prepared.mirror.as_ref();
+                let dots = mirror.map_or_else(Vec::new, |mirror| mirror.dots(context));
+                Marks { preview: Some(preview), dots, ..Marks::default() }
             }
             _ => Marks::default(),
         }

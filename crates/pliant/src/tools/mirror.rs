@@ -4,7 +4,12 @@ use pliant_geometry::{MirrorMap, Plane, Seam};
 use pliant_solver::VertexId;
 use serde::{Deserialize, Serialize};
 
+use super::Context;
 use crate::document::Model;
+use crate::viewport::Dot;
+
+/// Where the sides differ: a magenta that no ramp has (by eye).
+const UNEVEN: [u8; 4] = [230, 60, 200, 255];
 
 /// How the other side is found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -86,6 +91,14 @@ impl Mirror {
                 Mirror { map, uneven: uneven.map(|pair| pair.map(VertexId)) }
             }
         }
+    }
+
+    /// Dots where the sides first differ.
+    pub(super) fn dots(&self, context: &Context<'_>) -> Vec<Dot> {
+        let positions = &context.surface.frame().positions;
+        let at = |v: &VertexId| positions.get(v.index()).copied();
+        let dot = |position| Dot { position, color: UNEVEN, radius_px: 4.0 };
+        self.uneven.iter().flatten().filter_map(at).map(dot).collect()
     }
 
     /// Adds what takes after `vertices`; sorted, each once.

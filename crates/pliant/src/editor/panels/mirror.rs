@@ -48,25 +48,29 @@ fn plane(ui: &mut Ui, session: &Session, options: &mut crate::tools::MirrorOptio
     let Some(document) = session.document() else { return };
     let model = document.model();
     ui.horizontal(|ui| {
-        let label = ui.label("Across");
+        ui.label("Across");
         for (axis, label) in ["x", "y", "z"].into_iter().enumerate() {
             let tip = format!("The plane is at a right angle to the {label} axis");
             ui.selectable_value(&mut options.axis, axis, label).on_hover_text(tip);
         }
+    });
+    ui.horizontal(|ui| {
         let mut at = options.plane(model).at;
         let speed = 1e-3 * f64::from(model.diagonal());
-        let field = ui.add(DragValue::new(&mut at).speed(speed).max_decimals(6).prefix("at "));
-        if field.labelled_by(label.id).on_hover_text("Where the plane cuts its axis, in the model's units").changed() {
+        let field = ui.add(DragValue::new(&mut at).speed(speed).max_decimals(6));
+        let label = ui.label("at");
+        let tip = "Where the plane cuts its axis, in the model's units";
+        if field.labelled_by(label.id).on_hover_text(tip).changed() {
             options.at = Some(at);
         }
-        let is_middle = options.at.is_none();
-        let middle = ui.add_enabled(!is_middle, egui::Button::new("Middle"));
-        if middle
-            .on_hover_text("Put the plane through the middle of the model")
-            .on_disabled_hover_text("The plane goes through the middle of the model")
-            .clicked()
-        {
-            options.at = None;
+        for (place, label, tip, already) in [
+            (None, "middle", "Through the middle of the model", "The plane goes through the middle of the model"),
+            (Some(0.0), "origin", "Through the origin", "The plane goes through the origin"),
+        ] {
+            let button = ui.add_enabled(options.at != place, egui::Button::new(label));
+            if button.on_hover_text(tip).on_disabled_hover_text(already).clicked() {
+                options.at = place;
+            }
         }
     });
     ui.horizontal(|ui| {

@@ -9,11 +9,11 @@ use glam::Vec3;
 /// Unpainted clay, sRGB: light before dark ground, a shade darker before light ground (by eye).
 const CLAY: [[u8; 3]; 2] = [[206, 203, 198], [190, 192, 196]];
 /// Percent of gray in the color of locked vertices, and of light left (by eye: paler, yet the r can be told).
-const LOCKED_GRAY: u32 = 60;
-const LOCKED_LIGHT: u32 = 72;
+const LOCKED_GRAY: u32 = 55;
+const LOCKED_LIGHT: u32 = 84;
 /// Percent of the new color in the preview of a fill, and of white over it (by eye: seen on any ramp, also on its own color).
-const PREVIEW_SHARE: u32 = 60;
-const PREVIEW_GLOW: u32 = 28;
+const PREVIEW_SHARE: u32 = 75;
+const PREVIEW_GLOW: u32 = 24;
 /// Entries of a tabulated ramp; ramps with more rigidities than this are sampled.
 const RAMP_ENTRIES: usize = 256;
 
