@@ -13,6 +13,7 @@
 //! | [`FacePatches`] | O(n) | – |
 //! | [`MirrorMap`] | O(n log n) | O(1) |
 //! | [`edge_stretch`], [`largest_difference`] | – | O(n) |
+//! | [`Occlusion`] | O(n), parallel, for one view | a point O(1) |
 //! | [`SurfaceDistance`] | O(n) | O(k log k) for k vertices returned |
 //! | [`VertexNormals`] | O(n) | O(n), parallel |
 //!
@@ -27,6 +28,7 @@ mod face_patches;
 mod incidence;
 mod measures;
 mod mirror_map;
+mod occlusion;
 mod ray;
 mod surface_distance;
 mod tree;
@@ -40,6 +42,7 @@ pub use crossings::{crossings, crossings_of_all};
 pub use face_patches::FacePatches;
 pub use measures::{edge_stretch, largest_difference};
 pub use mirror_map::{MirrorMap, Plane, Seam, Uneven};
+pub use occlusion::{Lens, Occlusion, Sight};
 pub use ray::{Hit, Ray};
 pub use surface_distance::{Crossing, Growth, SurfaceDistance};
 pub use vertex_normals::VertexNormals;

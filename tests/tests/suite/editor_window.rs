@@ -330,3 +330,37 @@ fn an_anchor_made_by_a_click_is_listed_and_can_be_let_go_from_the_list() {
     window.run_steps(2);
     assert!(document(window.state_mut().session()).scene().groups.is_empty());
 }
+
+#[test]
+fn a_lasso_selects_what_it_encloses_and_the_card_of_a_vertex_can_be_read() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let mut window = window(folder.path());
+    press(&mut window, egui::Key::S);
+    window.get_by_label("Lasso").click();
+    window.run_steps(2);
+    let v = front_vertex(&mut window, 0.5);
+    let at = place(&mut window, v);
+    let side = 24.0;
+    let corners = [egui::vec2(-side, -side), egui::vec2(side, -side), egui::vec2(side, side), egui::vec2(-side, side)];
+    window.hover_at(at + corners[0]);
+    window.step();
+    window.drag_at(at + corners[0]);
+    window.step();
+    for corner in &corners[1..] {
+        window.hover_at(at + *corner);
+        window.step();
+    }
+    window.drop_at(at + corners[3]);
+    window.step();
+    let n = document(window.state_mut().session()).model().mesh.n_vertices() as u32;
+    let inside: Vec<u32> = (0..n).filter(|&v| (place(&mut window, v) - at).abs().max_elem() < side).collect();
+    let selected = &document(window.state_mut().session()).scene().selection;
+    let selected: Vec<u32> = selected.vertices().iter().map(|v| v.0).collect();
+    assert!(inside.len() > 5);
+    assert_eq!(selected, inside);
+
+    press(&mut window, egui::Key::Q);
+    window.hover_at(at);
+    window.run_steps(3);
+    assert!(window.query_by_label("Edges at").is_some(), "no card beside the pointer");
+}

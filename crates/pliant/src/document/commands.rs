@@ -4,18 +4,8 @@ use glam::{DAffine3, DVec3};
 use pliant_solver::{LooseComponents, Rigidity, RigidityError, VertexId, Weights};
 
 use super::grouping::{add, hold, merge, remove};
-use super::{ActiveGroups, Group, GroupColor, GroupId, GroupKind, Method, Scene, Selection};
-
-/// How newly selected vertices join those already selected.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SelectMode {
-    /// Only the new ones.
-    Replace,
-    /// Both.
-    Add,
-    /// The old ones without the new ones.
-    Remove,
-}
+use super::sets::change_sets;
+use super::{ActiveGroups, Group, GroupColor, GroupId, GroupKind, Method, Scene, SelectMode, Selection, SetChange};
 
 /// A wish. Tools, menus, keys and scripts all speak this language.
 #[derive(Clone, Debug, PartialEq)]
@@ -84,6 +74,8 @@ pub enum Command {
     Lock(Vec<VertexId>, SelectMode),
     /// Changes the selection.
     Select(Vec<VertexId>, SelectMode),
+    /// Stores, recalls or forgets a selection.
+    Sets(SetChange),
     /// Changes the edge weights of the energy.
     SetWeights(Weights),
     /// Changes what parts without handles do.
@@ -111,6 +103,12 @@ pub enum CommandError {
     /// Nothing to hold.
     #[error("no vertex to hold: select some first")]
     NothingToHold,
+    /// An empty selection cannot be stored.
+    #[error("nothing is selected that could be stored")]
+    NothingToStore,
+    /// The stored set does not exist (any more).
+    #[error("this stored set does not exist any more")]
+    NoSuchSet,
     /// A motion with NaN or infinity.
     #[error("a handle cannot move to a position that is not finite")]
     NotFinite,
@@ -178,6 +176,7 @@ impl Command {
             Command::Lock(_, SelectMode::Remove) => "Unlock rigidity",
             Command::Lock(..) => "Lock rigidity",
             Command::Select(..) => "Select",
+            Command::Sets(change) => change.name(),
             Command::SetWeights(_) => "Change weights",
             Command::SetLoose(_) => "Change loose parts",
             Command::SetMethod(_) => "Change method",
@@ -239,12 +238,13 @@ pub(super) fn changed(scene: &Scene, command: Command, around: Surroundings<'_>)
         }
         Command::Lock(vertices, mode) => {
             check_vertices(&vertices, around.rest.len())?;
-            next.locked = combine(&scene.locked, vertices, mode);
+            next.locked = scene.locked.combined(Selection::new(vertices), mode);
         }
         Command::Select(vertices, mode) => {
             check_vertices(&vertices, around.rest.len())?;
-            next.selection = combine(&scene.selection, vertices, mode);
+            next.selection = scene.selection.combined(Selection::new(vertices), mode);
         }
+        Command::Sets(change) => change_sets(&mut next, change)?,
         Command::SetWeights(weights) => next.weights = weights,
         Command::SetLoose(loose) => next.loose = loose,
         Command::SetMethod(method) => {
@@ -350,16 +350,5 @@ fn check_vertices(vertices: &[VertexId], n_vertices: usize) -> Result<(), Comman
     match vertices.iter().find(|v| v.index() >= n_vertices) {
         Some(v) => Err(CommandError::NoSuchVertex { vertex: v.0, n_vertices }),
         None => Ok(()),
-    }
-}
-
-fn combine(old: &Selection, new: Vec<VertexId>, mode: SelectMode) -> Selection {
-    match mode {
-        SelectMode::Replace => Selection::new(new),
-        SelectMode::Add => Selection::new(old.vertices().iter().copied().chain(new).collect()),
-        SelectMode::Remove => {
-            let gone = Selection::new(new);
-            Selection::new(old.vertices().iter().copied().filter(|&v| !gone.contains(v)).collect())
-        }
     }
 }

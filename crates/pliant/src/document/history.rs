@@ -168,6 +168,7 @@ mod tests {
             selection: Selection::default(),
             locked: Selection::default(),
             active: crate::document::ActiveGroups::default(),
+            sets: [].into(),
             weights: Weights::default(),
             loose: LooseComponents::default(),
             method: crate::document::Method::default(),

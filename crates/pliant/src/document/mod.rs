@@ -15,12 +15,15 @@ mod model;
 mod motion;
 mod palette;
 mod polygons;
+mod regions;
 mod scene;
+mod selection;
+mod sets;
 
 mod state;
 mod textures;
 
-pub use commands::{Command, CommandError, SelectMode};
+pub use commands::{Command, CommandError};
 pub use fill::{region_by_selection, region_of_equal_rigidity, region_of_faces, region_of_part, region_of_piece};
 pub use findings::{Finding, caution, findings};
 pub use group::{ActiveGroups, Group, GroupId, GroupKind, held_by};
@@ -30,5 +33,8 @@ pub(crate) use model::bounds_of;
 pub use model::{Model, ModelError};
 pub use motion::{Change, Placement, rotation_of};
 pub use palette::GroupColor;
-pub use scene::{Scene, Selection};
+pub use regions::{Alike, Part, alike, border, grown, inverted, of_parts, of_rigidity, part_of_triangle, rim, shrunk};
+pub use scene::Scene;
+pub use selection::{SelectMode, Selection};
+pub use sets::{SetChange, SetId, StoredSet};
 pub use state::{Document, Pose};

@@ -4,35 +4,7 @@ use std::sync::Arc;
 
 use pliant_solver::{LooseComponents, Rigidity, VertexId, Weights};
 
-use super::{ActiveGroups, Group, GroupId, Method, Model};
-
-/// A set of surface points, sorted. Cheap to clone.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Selection(Arc<[VertexId]>);
-
-impl Selection {
-    /// Sorts and removes duplicates.
-    pub fn new(mut vertices: Vec<VertexId>) -> Selection {
-        vertices.sort_unstable();
-        vertices.dedup();
-        Selection(vertices.into())
-    }
-
-    /// The selected points, sorted.
-    pub fn vertices(&self) -> &[VertexId] {
-        &self.0
-    }
-
-    /// Whether `v` is selected.
-    pub fn contains(&self, v: VertexId) -> bool {
-        self.0.binary_search(&v).is_ok()
-    }
-
-    /// Whether nothing is selected.
-    pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
-    }
-}
+use super::{ActiveGroups, Group, GroupId, Method, Model, Selection, SetId, StoredSet, sets};
 
 /// Everything the user can change and undo. Cheap to clone: Arcs and small values.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,6 +19,8 @@ pub struct Scene {
     pub locked: Selection,
     /// The groups that are being worked on.
     pub active: ActiveGroups,
+    /// Selections kept under a name.
+    pub sets: Arc<[StoredSet]>,
     /// Edge weights of the energy.
     pub weights: Weights,
     /// What parts without handles do.
@@ -64,6 +38,7 @@ impl Scene {
             selection: Selection::default(),
             locked: Selection::default(),
             active: ActiveGroups::default(),
+            sets: Arc::new([]),
             weights: Weights::default(),
             // Eyes and buttons are parts of their own in most files, and nobody wants them left behind.
             loose: LooseComponents::FollowNearest,
@@ -74,6 +49,11 @@ impl Scene {
     /// The group of that name, if it still exists.
     pub fn group(&self, id: GroupId) -> Option<&Group> {
         self.groups.iter().find(|group| group.id == id)
+    }
+
+    /// The stored set of that name, if it still exists.
+    pub fn set(&self, id: SetId) -> Option<&StoredSet> {
+        self.sets.iter().find(|set| set.id == id)
     }
 
     /// The leading active group, if any.
@@ -132,6 +112,6 @@ impl Scene {
         if !std::ptr::eq(self.locked.vertices(), other.locked.vertices()) {
             bytes += size_of_val(self.locked.vertices());
         }
-        bytes
+        bytes + sets::bytes_beyond(&self.sets, &other.sets)
     }
 }

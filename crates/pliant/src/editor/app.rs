@@ -158,6 +158,7 @@ impl eframe::App for EditorApp {
         CentralPanel::no_frame().show(ui, |ui| {
             let rect = ui.available_rect_before_wrap();
             let picture = self.compare.show(ui, &mut self.viewport, &mut self.session);
+            panels::inspect(ui, picture, &mut self.session);
             panels::legend(ui, picture, &mut self.session);
             panels::learn(ui, rect, &mut self.session);
             panels::welcome(ui, rect, &mut self.session);

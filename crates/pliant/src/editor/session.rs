@@ -4,10 +4,14 @@
 mod compare;
 mod handles;
 mod hints;
+mod inspect;
 mod method;
 mod paint;
 mod project;
+mod selection;
 mod views;
+
+pub use inspect::Inspection;
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -15,16 +19,17 @@ use std::time::Instant;
 
 use glam::{DAffine3, Vec2};
 use pliant_meshfile::{OpenOptions, Welding};
-use pliant_solver::{Rigidity, VertexId};
+use pliant_solver::Rigidity;
 
 use super::crossings::Search;
 use super::jobs::{Jobs, Opened};
+use super::measuring::Measuring;
 use super::preparing::Preparing;
 use super::{
     Autosave, Habits, Job, JobEvent, Learning, Leftover, Look, NoticeKind, Notices, Open, Preferences, Recent, Sample,
     Shown, Status, Trial, Welcome,
 };
-use crate::document::{Command, Document, GroupKind, History, SelectMode};
+use crate::document::{Command, Document, History};
 use crate::solving::{Measure, SolveReport, SolveRequest, Worker};
 use crate::tools::{Context, Input, Marks, Options, Pivot, Tool, ToolKey, ToolKind, View};
 
@@ -55,7 +60,8 @@ pub struct Session {
     worker: Worker,
     jobs: Jobs,
     preparing: Preparing,
-    sent: Option<(u64, Option<Measure>)>,
+    measuring: Measuring,
+    sent: Option<(u64, Option<Measure>, bool)>,
     shows_rest: bool,
     crossings: Search,
     welcome: Option<Welcome>,
@@ -99,6 +105,7 @@ impl Session {
             viewport_size: Vec2::new(800.0, 600.0),
             worker: Worker::start(move || wake_worker())?,
             preparing: Preparing::new(wake.clone()),
+            measuring: Measuring::new(wake.clone()),
             jobs: Jobs::new(wake.clone()),
             sent: None,
             shows_rest: false,
@@ -172,6 +179,7 @@ impl Session {
         self.status = Status::default();
         self.learning = None;
         self.compare = None;
+        self.measuring.forget();
         self.welcome_to(sample);
         self.take_settings(opened.restored.as_deref_mut());
         let origin = opened.restored.as_ref().map(|restored| restored.origin.clone());
@@ -194,6 +202,7 @@ impl Session {
         self.poll_compare();
         self.tick(Instant::now());
         self.look_for_crossings();
+        self.measure();
         let mut for_window = Vec::new();
         while let Some(event) = self.jobs.poll() {
             match event {
@@ -300,12 +309,14 @@ impl Session {
 
     /// Sends the newest wish to the solver and shows a pose that jumped.
     fn synchronize(&mut self) {
+        let energies = self.wants_energies();
         let Some(open) = &mut self.open else { return };
         open.catch_up();
-        let wish = (open.document.revision(), self.look.color_by.measure());
+        let wish = (open.document.revision(), self.look.color_by.measure(), energies);
         if self.sent != Some(wish) {
             self.sent = Some(wish);
-            self.worker.request(SolveRequest::of(&open.document, wish.1));
+            let request = SolveRequest::of(&open.document, wish.1);
+            self.worker.request(SolveRequest { wants_energies: energies, ..request });
         }
         self.tell_compare();
     }
@@ -327,6 +338,7 @@ impl Session {
         self.cancel_tool();
         self.tool_kind = kind;
         self.tool = kind.new_tool();
+        self.synchronize();
     }
 
     fn cancel_tool(&mut self) {
@@ -397,43 +409,6 @@ impl Session {
     /// Tells the size of the viewport in points.
     pub fn set_viewport_size(&mut self, size: Vec2) {
         self.viewport_size = size.max(Vec2::ONE);
-    }
-
-    /// Holds the selected vertices.
-    pub fn hold_selection(&mut self, kind: GroupKind) {
-        if let Some(document) = self.document() {
-            let vertices = document.scene().selection.vertices().to_vec();
-            self.apply(Command::Hold { kind, vertices });
-        }
-    }
-
-    /// Anchors every vertex that is neither selected nor held: the selection becomes the region of interest.
-    pub fn hold_everything_else(&mut self) {
-        let Some(document) = self.document() else {
-            return;
-        };
-        let scene = document.scene();
-        let mut is_free = vec![true; document.model().mesh.n_vertices()];
-        scene.selection.vertices().iter().for_each(|v| is_free[v.index()] = false);
-        scene.groups.iter().flat_map(|group| group.vertices.iter()).for_each(|v| is_free[v.index()] = false);
-        let vertices = (0..).zip(is_free).filter(|&(_, free)| free).map(|(v, _)| VertexId(v)).collect();
-        self.apply(Command::Hold { kind: GroupKind::Anchor, vertices });
-    }
-
-    /// Gives the selected vertices the current r.
-    pub fn fill_selection(&mut self) {
-        if let Some(document) = self.document() {
-            let vertices = document.scene().selection.vertices().to_vec();
-            self.apply(Command::Fill { vertices, r: self.options.rigidity });
-        }
-    }
-
-    /// Selects every vertex, or none.
-    pub fn select_all(&mut self, all: bool) {
-        if let Some(document) = self.document() {
-            let n = if all { document.model().mesh.n_vertices() as u32 } else { 0 };
-            self.apply(Command::Select((0..n).map(VertexId).collect(), SelectMode::Replace));
-        }
     }
 
     /// Sets the current r, kept within what the solver takes.

@@ -4,17 +4,19 @@ use std::sync::Arc;
 
 use egui::{Event, PointerButton, Pos2, Rect};
 use glam::{Vec2, Vec3};
-use pliant_solver::{Rigidity, VertexId};
+use pliant_solver::{Mesh, Rigidity, VertexId};
 
 use super::look::ramp_max;
 use super::{Action, NoticeKind, Session, theme};
-use crate::document::{GroupKind, Selection};
+use crate::document::{GroupKind, Selection, rim};
 use crate::solving::SolveState;
 use crate::tools::{Cursor, Input, Label, Modifiers, Pointer, ToolKind};
 use crate::viewport::{Camera, DeviceWatch, Dot, Line, Renderer, SurfaceFrame, ViewScene, samples_for, watch_device};
 
 /// Larger groups show only some of their vertices: thousands of dots hide the surface (by eye).
 const DOTS_PER_GROUP: usize = 100;
+/// Groups of more vertices than this show dots along their rim only (by eye).
+const RIM_ONLY: usize = 1000;
 /// How long nothing may move before a processor draws the picture with smooth edges (by eye).
 const REST_BEFORE_REFINING: std::time::Duration = std::time::Duration::from_millis(350);
 /// Samples a pixel then.
@@ -37,6 +39,9 @@ type Flags = Option<(Selection, usize, Arc<[bool]>)>;
 /// What decides what a resting pointer means: the tool, the surface, the camera, and the stamp of everything else.
 type Hovered = (ToolKind, *const SurfaceFrame, Camera, (u64, u64, usize));
 
+/// Vertices of large groups, and of those the ones at the rim.
+type Rims = Vec<(Arc<[VertexId]>, Arc<[VertexId]>)>;
+
 /// Values that are made anew only when their source changed.
 #[derive(Default)]
 struct Cache {
@@ -46,6 +51,7 @@ struct Cache {
     bounds: Option<(Arc<SurfaceFrame>, (Vec3, Vec3))>,
     dots: Arc<[Dot]>,
     lines: Arc<[Line]>,
+    rims: Rims,
 }
 
 /// The renderer, its texture in egui, and the drag under way.
@@ -181,6 +187,12 @@ impl ViewportPanel {
                 }
                 _ => {}
             }
+        }
+        if response.double_clicked_by(PointerButton::Primary)
+            && let Some(pos) = response.interact_pointer_pos()
+            && !ui.input(|input| input.modifiers.alt)
+        {
+            session.input(Input::DoubleClick(pointer(pos, ui.input(|input| input.modifiers), rect)));
         }
         if !is_over && self.gesture.is_none() {
             session.input(Input::Leave);
@@ -358,7 +370,7 @@ impl ViewportPanel {
         let open = session.open()?;
         let (scene, model) = (open.document.scene(), open.document.model());
         let frame = session.shown_frame()?.clone();
-        let mut dots = if look.handles && !shows_rest { group_dots(session) } else { Vec::new() };
+        let mut dots = if look.handles && !shows_rest { group_dots(session, &mut self.cache.rims) } else { Vec::new() };
         dots.extend(marks.dots);
         keep(&mut self.cache.dots, dots);
         keep(&mut self.cache.lines, marks.lines);
@@ -425,9 +437,7 @@ fn flags(kept: &mut Flags, set: &Selection, n: usize) -> Option<Arc<[bool]>> {
     match kept {
         Some((known, of, flags)) if *of == n && std::ptr::eq(known.vertices(), set.vertices()) => Some(flags.clone()),
         _ => {
-            let mut flags = vec![false; n];
-            set.vertices().iter().for_each(|v| flags[v.index()] = true);
-            let flags: Arc<[bool]> = flags.into();
+            let flags: Arc<[bool]> = set.flags(n).into();
             *kept = Some((set.clone(), n, flags.clone()));
             Some(flags)
         }
@@ -441,18 +451,34 @@ fn keep<T: PartialEq>(kept: &mut Arc<[T]>, new: Vec<T>) {
     }
 }
 
-fn group_dots(session: &Session) -> Vec<Dot> {
+/// Vertices of a large group that stand for it: those at its rim, where what is held meets what bends.
+fn rim_of(rims: &mut Rims, mesh: &Mesh, vertices: &Arc<[VertexId]>) -> Arc<[VertexId]> {
+    if let Some((_, rim)) = rims.iter().find(|(of, _)| Arc::ptr_eq(of, vertices)) {
+        return rim.clone();
+    }
+    let rim: Arc<[VertexId]> = rim(mesh, vertices).into();
+    let rim = if rim.is_empty() { vertices.clone() } else { rim };
+    rims.push((vertices.clone(), rim.clone()));
+    rim
+}
+
+fn group_dots(session: &Session, rims: &mut Rims) -> Vec<Dot> {
     let Some(open) = session.open() else {
         return Vec::new();
     };
     let scene = open.document.scene();
     let positions = &open.surface.frame().positions;
     let mut dots = Vec::new();
+    rims.retain(|(of, _)| scene.groups.iter().any(|group| Arc::ptr_eq(&group.vertices, of)));
     for group in scene.groups.iter().filter(|group| group.dots) {
         let [red, green, blue] = group.color.rgb();
         let color = [red, green, blue, 255];
         let dot = |v: &VertexId| Dot { position: positions[v.index()], color, radius_px: 2.5 };
-        dots.extend(group.vertices.iter().step_by(group.vertices.len().div_ceil(DOTS_PER_GROUP)).map(dot));
+        let shown = match group.vertices.len() {
+            0..RIM_ONLY => group.vertices.clone(),
+            _ => rim_of(rims, &open.document.model().mesh, &group.vertices),
+        };
+        dots.extend(shown.iter().step_by(shown.len().div_ceil(DOTS_PER_GROUP).max(1)).map(dot));
         let radius_px = if scene.active.contains(group.id) { 8.0 } else { 6.0 };
         // The middle of anchors may lie far from all of them; a handle is taken there.
         if group.kind == GroupKind::Handle {

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::container::{Block, Reader, Writer};
 use super::error::Flaw;
 use super::record::{self, LooseRecord, MethodRecord, WeightsRecord};
-use crate::document::{ActiveGroups, Group, GroupColor, GroupId, GroupKind, Scene, Selection};
+use crate::document::{ActiveGroups, Group, GroupColor, GroupId, GroupKind, Scene, Selection, SetId, StoredSet};
 
 /// Bytes of a group's name; a longer one is cut.
 const NAME_BYTES: usize = 1 << 10;
@@ -27,6 +27,11 @@ pub(super) struct SceneRecord {
     selection: Option<Block>,
     #[serde(default)]
     locked: Option<Block>,
+    #[serde(default)]
+    sets: Vec<SetRecord>,
+    /// Vertices of all stored sets.
+    #[serde(default)]
+    set_members: Option<Block>,
     /// Groups that are being worked on, the leading one last.
     #[serde(default)]
     active: Vec<u32>,
@@ -52,6 +57,14 @@ struct GroupRecord {
     hides_dots: bool,
 }
 
+#[derive(Debug, Serialize, Deserialize)]
+struct SetRecord {
+    id: u32,
+    name: String,
+    /// How many of the members are its own.
+    count: u32,
+}
+
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 enum KindRecord {
@@ -70,6 +83,11 @@ impl SceneRecord {
             bases: record::put_points(writer, groups.iter().flat_map(|group| group.base.iter().copied())),
             selection: (!selection.is_empty()).then(|| record::put_vertices(writer, selection.iter().copied())),
             locked: (!locked.is_empty()).then(|| record::put_vertices(writer, locked.iter().copied())),
+            sets: scene.sets.iter().map(SetRecord::of).collect(),
+            set_members: (!scene.sets.is_empty()).then(|| {
+                let members = scene.sets.iter().flat_map(|set| set.vertices.vertices().iter().copied());
+                record::put_vertices(writer, members)
+            }),
             active: scene.active.ids().iter().map(|id| id.0).collect(),
             weights: scene.weights.into(),
             loose: scene.loose.into(),
@@ -85,6 +103,7 @@ impl SceneRecord {
         }
         let rigidity = Rigidity::new(r).map_err(|error| Flaw(error.to_string()))?;
         let groups = self.groups(reader, n_points)?;
+        let sets = self.sets(reader, n_points)?;
         let set = |block: Option<Block>, what: &str| match block {
             Some(block) => Ok(Selection::new(record::vertices(reader, block, n_points, what)?)),
             None => Ok(Selection::default()),
@@ -92,6 +111,7 @@ impl SceneRecord {
         let ids: HashSet<GroupId> = groups.iter().map(|group| group.id).collect();
         let active = self.active.into_iter().map(GroupId).filter(|id| ids.contains(id)).collect();
         let mut scene = fresh;
+        scene.sets = sets.into();
         (scene.rigidity, scene.groups, scene.active) = (rigidity, groups.into(), ActiveGroups::new(active));
         (scene.selection, scene.locked) = (set(self.selection, "selection")?, set(self.locked, "locked vertices")?);
         (scene.weights, scene.loose) = (self.weights.into(), self.loose.into());
@@ -99,6 +119,26 @@ impl SceneRecord {
             scene.method = method.method()?;
         }
         Ok(scene)
+    }
+
+    fn sets(&self, reader: &Reader, n_points: usize) -> Result<Vec<StoredSet>, Flaw> {
+        let members = match self.set_members {
+            Some(block) => record::vertices(reader, block, n_points, "stored sets")?,
+            None => Vec::new(),
+        };
+        let (mut sets, mut ids, mut rest) = (Vec::new(), HashSet::new(), &members[..]);
+        for set in &self.sets {
+            let Some((own, others)) = rest.split_at_checked(set.count as usize) else {
+                return Err(Flaw(format!("stored set {} lacks vertices", set.id)));
+            };
+            if !ids.insert(set.id) {
+                return Err(Flaw(format!("two stored sets have the number {}", set.id)));
+            }
+            rest = others;
+            let (id, name) = (SetId(set.id), cut(&set.name));
+            sets.push(StoredSet { id, name, vertices: Selection::new(own.to_vec()) });
+        }
+        if rest.is_empty() { Ok(sets) } else { Err(Flaw::new("vertices are left over that are in no stored set")) }
     }
 
     fn groups(&self, reader: &Reader, n_points: usize) -> Result<Vec<Group>, Flaw> {
@@ -134,6 +174,17 @@ impl SceneRecord {
     }
 }
 
+impl SetRecord {
+    fn of(set: &StoredSet) -> SetRecord {
+        SetRecord { id: set.id.0, name: set.name.clone(), count: set.vertices.len() as u32 }
+    }
+}
+
+/// A name of bearable length.
+fn cut(name: &str) -> String {
+    name[..name.floor_char_boundary(NAME_BYTES)].to_owned()
+}
+
 impl GroupRecord {
     fn of(group: &Group) -> GroupRecord {
         GroupRecord {
@@ -156,8 +207,7 @@ impl GroupRecord {
         base: std::sync::Arc<[DVec3]>,
     ) -> Result<Group, Flaw> {
         let motion = record::motion_of(&self.motion).ok_or_else(|| Flaw::new("a handle's motion is not finite"))?;
-        let mut name = self.name.clone();
-        name.truncate(name.floor_char_boundary(NAME_BYTES));
+        let name = cut(&self.name);
         let kind = match self.kind {
             KindRecord::Handle => GroupKind::Handle,
             KindRecord::Anchor => GroupKind::Anchor,

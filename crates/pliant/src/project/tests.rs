@@ -11,7 +11,8 @@ use pliant_solver::{LooseComponents, VertexId, Weights};
 use super::container::{Reader, Writer};
 use super::{Contents, Loaded, Mesh, MeshChoice, ProjectError, open, save, summary};
 use crate::document::{
-    Command, Document, GroupColor, GroupId, GroupKind, Method, MethodKind, Model, Pose, SelectMode, Snapshot,
+    Command, Document, GroupColor, GroupId, GroupKind, Method, MethodKind, Model, Pose, SelectMode, SetChange, SetId,
+    Snapshot,
 };
 use crate::viewport::{Axis, Camera, Projection};
 
@@ -40,6 +41,10 @@ fn rich(folder: &Path) -> Document {
         },
         Command::Paint { values: vec![(VertexId(1), 7), (VertexId(4), 1000)] },
         Command::Select(vec![VertexId(4), VertexId(1)], SelectMode::Replace),
+        Command::Sets(SetChange::Store),
+        Command::Sets(SetChange::Rename(SetId(1), "Fingers".into())),
+        Command::Select(vec![VertexId(2)], SelectMode::Add),
+        Command::Sets(SetChange::Store),
         Command::SetWeights(Weights::Uniform),
         Command::SetLoose(LooseComponents::KeepAtRest),
         Command::SetColor(id, GroupColor::Purple),

@@ -39,6 +39,7 @@ pub struct Engine {
     figures: Figures,
     /// As last reported.
     measured: Option<Measured>,
+    vertex_energies: Option<Arc<[f64]>>,
 }
 
 impl Engine {
@@ -77,6 +78,7 @@ impl Engine {
             graphs: KeptGraph::default(),
             figures: Figures::default(),
             measured: None,
+            vertex_energies: None,
             wish: wish.clone(),
         }
     }
@@ -120,6 +122,8 @@ impl Engine {
         // Those of a preview would be of no use, and take longer than the preview.
         if !self.is_previewing() {
             self.measured = self.measure();
+            let bent = self.bent.as_ref().filter(|_| self.wish.wants_energies);
+            self.vertex_energies = bent.map(|bent| bent.vertex_energies(&self.ground).into());
         }
         let loose = self.bent.as_ref().map_or(&[][..], |bent| bent.deformer().loose_components());
         SolveReport {
@@ -135,6 +139,7 @@ impl Engine {
             iteration_ms: self.figures.iteration_ms(),
             energies: self.figures.energies(),
             measured: self.measured.clone(),
+            vertex_energies: self.vertex_energies.clone(),
             remarks: remarks::about_loose(loose, self.wish.loose),
             ground: Arc::downgrade(&self.ground),
         }

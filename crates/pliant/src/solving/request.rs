@@ -31,6 +31,8 @@ pub struct SolveRequest {
     pub loose: LooseComponents,
     /// What reports should tell of every vertex.
     pub measure: Option<Measure>,
+    /// Whether reports should tell the energy of every vertex as well.
+    pub wants_energies: bool,
 }
 
 impl SolveRequest {
@@ -51,6 +53,7 @@ impl SolveRequest {
             weights: scene.weights,
             loose: scene.loose,
             measure,
+            wants_energies: false,
         }
     }
 
@@ -118,6 +121,8 @@ pub struct SolveReport {
     pub energies: Arc<[f64]>,
     /// What was asked for of every vertex, where there is something to tell.
     pub measured: Option<Measured>,
+    /// Energy of every vertex, in the unit of `energy`, when asked for and something is held.
+    pub vertex_energies: Option<Arc<[f64]>>,
     /// What the user should know: parts without a handle, for instance.
     pub remarks: Vec<String>,
     /// What the solver stands on, while it is there: others may stand on it too.

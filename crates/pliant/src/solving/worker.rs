@@ -157,6 +157,7 @@ fn bare_report(wish: &SolveRequest, state: SolveState) -> SolveReport {
         iteration_ms: 0.0,
         energies: Arc::new([]),
         measured: None,
+        vertex_energies: None,
         remarks: Vec::new(),
         ground: std::sync::Weak::new(),
     }

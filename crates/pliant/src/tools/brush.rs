@@ -13,7 +13,7 @@ use crate::viewport::{Line, Projection};
 /// Segments of the drawn circle.
 const CIRCLE_SEGMENTS: usize = 48;
 /// White, and paler on the mirrored side.
-const CIRCLE: [u8; 4] = [255, 255, 255, 230];
+pub(super) const CIRCLE: [u8; 4] = [255, 255, 255, 230];
 const MIRRORED_CIRCLE: [u8; 4] = [255, 255, 255, 130];
 
 /// A stroke under way.
@@ -59,7 +59,7 @@ impl BrushTool {
 }
 
 /// Way between dabs where the pointer is, in points; one at least.
-fn spacing_px(px: Vec2, context: &mut Context<'_>) -> f32 {
+pub(super) fn spacing_px(px: Vec2, context: &mut Context<'_>) -> f32 {
     let radius_px = match context.options.paint.unit {
         super::BrushUnit::Screen => context.options.brush_radius_px,
         super::BrushUnit::Model => {
@@ -165,12 +165,12 @@ fn mean_around(mesh: &Mesh, r: &[u16], v: VertexId) -> u16 {
     ((sum + n / 2) / n) as u16
 }
 
-fn radius_at(pick: &Pick, context: &Context<'_>) -> f32 {
+pub(super) fn radius_at(pick: &Pick, context: &Context<'_>) -> f32 {
     context.options.brush_radius(context.view.camera.world_per_px(pick.position, context.view.size))
 }
 
 /// A circle on the surface.
-fn circle(center: Vec3, normal: Vec3, radius: f32, color: [u8; 4]) -> impl Iterator<Item = Line> {
+pub(super) fn circle(center: Vec3, normal: Vec3, radius: f32, color: [u8; 4]) -> impl Iterator<Item = Line> {
     let u = normal.any_orthonormal_vector();
     let v = normal.cross(u);
     let lift = normal * radius * 0.02;
@@ -224,7 +224,7 @@ impl Tool for BrushTool {
                 let r = self.hover.map(|pick| context.document.scene().rigidity.as_slice()[pick.vertex.index()]);
                 return Reaction { rigidity: r, ..Reaction::default() };
             }
-            Input::Release(_) | Input::Key(_) => {}
+            Input::Release(_) | Input::DoubleClick(_) | Input::Key(_) => {}
         }
         Reaction::default()
     }

@@ -209,7 +209,7 @@ impl Tool for FillTool {
                 let r = self.hover.map(|pick| context.document.scene().rigidity.as_slice()[pick.vertex.index()]);
                 return Reaction { rigidity: r, ..Reaction::default() };
             }
-            Input::Press(_) | Input::Key(_) => {}
+            Input::Press(_) | Input::DoubleClick(_) | Input::Key(_) => {}
         }
         Reaction::default()
     }

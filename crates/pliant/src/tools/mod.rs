@@ -7,10 +7,12 @@ mod brush;
 mod fill;
 mod gizmo;
 mod grow;
+mod inspect;
 mod length;
 mod mirror;
 mod mouse;
 mod options;
+mod outline;
 mod paint_options;
 mod place;
 mod prepared;
@@ -27,7 +29,7 @@ pub use options::{BrushMode, Options, SelectShape};
 pub use paint_options::{BrushReach, BrushUnit, FillBoundary, PaintOptions};
 pub use prepared::Prepared;
 pub use surface::{Pick, Surface};
-pub use tool::{Context, Cursor, Input, Label, Marks, Modifiers, Pointer, Reaction, Tool, ToolKey, View};
+pub use tool::{Card, Context, Cursor, Input, Label, Marks, Modifiers, Pointer, Reaction, Tool, ToolKey, View};
 
 use crate::document::GroupKind;
 
@@ -45,12 +47,14 @@ pub enum ToolKind {
     Brush,
     /// Fills regions with rigidity.
     Fill,
+    /// Tells about vertices and measures between them.
+    Inspect,
 }
 
 impl ToolKind {
     /// In the order of the tool rail.
-    pub const ALL: [ToolKind; 5] =
-        [ToolKind::Handle, ToolKind::Anchor, ToolKind::Select, ToolKind::Brush, ToolKind::Fill];
+    pub const ALL: [ToolKind; 6] =
+        [ToolKind::Handle, ToolKind::Anchor, ToolKind::Select, ToolKind::Brush, ToolKind::Fill, ToolKind::Inspect];
 
     /// Name on its button.
     pub const fn label(self) -> &'static str {
@@ -60,6 +64,7 @@ impl ToolKind {
             ToolKind::Select => "Select",
             ToolKind::Brush => "Brush",
             ToolKind::Fill => "Fill",
+            ToolKind::Inspect => "Inspect",
         }
     }
 
@@ -68,9 +73,10 @@ impl ToolKind {
         match self {
             ToolKind::Handle => "Click the surface to place a handle, drag handles to bend it",
             ToolKind::Anchor => "Click the surface to hold it where it is",
-            ToolKind::Select => "Drag a box or lasso around vertices to make handles, anchors or fills of them",
+            ToolKind::Select => "Select vertices by click, box, lasso or brush, for handles, anchors and fills",
             ToolKind::Brush => "Paint how stiff the surface is",
             ToolKind::Fill => "Click to fill a region with rigidity, or drag to spread it from a point",
+            ToolKind::Inspect => "Point at a vertex to read its numbers; click two to measure between them",
         }
     }
 
@@ -82,6 +88,7 @@ impl ToolKind {
             ToolKind::Select => Box::<select::SelectTool>::default(),
             ToolKind::Brush => Box::<brush::BrushTool>::default(),
             ToolKind::Fill => Box::<fill::FillTool>::default(),
+            ToolKind::Inspect => Box::<inspect::InspectTool>::default(),
         }
     }
 }

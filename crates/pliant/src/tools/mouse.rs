@@ -35,10 +35,11 @@ impl ToolKind {
                 ("Shift + click anchors", "choose several"),
             ],
             ToolKind::Select => &[
-                ("Drag", "select what is inside of the box or lasso"),
+                ("Drag", "select what is inside of the box or lasso, or under the brush"),
                 ("Shift while selecting", "add"),
                 ("Ctrl while selecting", "remove"),
-                ("Click", "select a patch"),
+                ("Click", "select a vertex"),
+                ("Double click", "select all that is linked"),
             ],
             ToolKind::Brush => &[
                 ("Drag over the surface", "paint the current rigidity"),
@@ -48,6 +49,11 @@ impl ToolKind {
             ToolKind::Fill => &[
                 ("Click the surface", "fill the region that is shown"),
                 ("Drag over the surface", "fill around the pressed point, as far as the drag"),
+            ],
+            ToolKind::Inspect => &[
+                ("Point at the surface", "read the numbers of a vertex"),
+                ("Click", "pin it"),
+                ("Click another vertex", "measure the way to it"),
             ],
         }
     }

@@ -30,6 +30,31 @@ pub enum SelectShape {
     Box,
     /// A free closed line.
     Lasso,
+    /// A stroke of the brush's circle over the surface.
+    Brush,
+}
+
+impl SelectShape {
+    /// In the order of the inspector.
+    pub const ALL: [SelectShape; 3] = [SelectShape::Box, SelectShape::Lasso, SelectShape::Brush];
+
+    /// Name on its button.
+    pub fn label(self) -> &'static str {
+        match self {
+            SelectShape::Box => "Box",
+            SelectShape::Lasso => "Lasso",
+            SelectShape::Brush => "Brush",
+        }
+    }
+
+    /// The one after it.
+    pub fn next(self) -> SelectShape {
+        match self {
+            SelectShape::Box => SelectShape::Lasso,
+            SelectShape::Lasso => SelectShape::Brush,
+            SelectShape::Brush => SelectShape::Box,
+        }
+    }
 }
 
 /// Settings of all tools; plain values.
@@ -46,7 +71,7 @@ pub struct Options {
     pub paint: PaintOptions,
     /// Rings of vertices around the clicked one that become a handle or anchor; 0 is the vertex alone.
     pub patch_rings: u16,
-    /// Box or lasso.
+    /// Box, lasso or brush.
     pub select_shape: SelectShape,
     /// Whether the active handle has a gizmo.
     pub show_gizmo: bool,

@@ -1,9 +1,15 @@
-//! Which vertices a click or an outline means.
+//! Which vertices a click, an outline or a brush means.
 
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 use pliant_solver::{Mesh, VertexId};
+use rayon::prelude::*;
 
-use super::Context;
+use super::outline::Outline;
+use super::{Context, Pick};
+use crate::viewport::Projection;
+
+/// Vertices that are worth a task.
+const VERTICES_PER_TASK: usize = 8192;
 
 /// `center` and the vertices within `rings` edges of it, sorted. O(result).
 pub(super) fn patch(mesh: &Mesh, center: VertexId, rings: u16) -> Vec<VertexId> {
@@ -27,35 +33,31 @@ pub(super) fn patch(mesh: &Mesh, center: VertexId, rings: u16) -> Vec<VertexId> 
 
 /// Vertices whose place on screen is inside a closed outline (even–odd rule), hidden ones only when asked for.
 pub(super) fn inside_outline(outline: &[Vec2], through: bool, context: &mut Context<'_>) -> Vec<VertexId> {
-    if outline.len() < 3 {
-        return Vec::new();
-    }
-    let (lo, hi) = outline.iter().fold((outline[0], outline[0]), |(lo, hi), &p| (lo.min(p), hi.max(p)));
+    let (view, outline) = (context.view, Outline::new(outline));
     let frame = context.surface.frame().clone();
-    let view = context.view;
-    let mut inside: Vec<VertexId> = Vec::new();
-    for (v, &position) in (0..).zip(&frame.positions) {
-        let Some((px, _)) = view.camera.project(position, view.size) else {
-            continue;
-        };
-        if px.cmpge(lo).all() && px.cmple(hi).all() && contains(outline, px) {
-            inside.push(VertexId(v));
-        }
-    }
-    if !through {
-        inside.retain(|&v| context.surface.is_visible(v, &view));
-    }
-    inside
+    let vertices = frame.positions.par_iter().with_min_len(VERTICES_PER_TASK).enumerate();
+    let is_inside = |&p: &Vec3| view.camera.project(p, view.size).is_some_and(|(px, _)| outline.contains(px));
+    let inside = vertices.filter(|(_, p)| is_inside(p)).map(|(v, _)| VertexId(v as u32)).collect();
+    if through { inside } else { context.surface.visible_of(inside, &view) }
 }
 
-fn contains(outline: &[Vec2], p: Vec2) -> bool {
-    let mut inside = false;
-    let mut a = outline[outline.len() - 1];
-    for &b in outline {
-        if (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x) {
-            inside = !inside;
-        }
-        a = b;
+/// What a brush of `radius` covers around a point: measured along the surface, and only what faces the eye as the point
+/// itself does, so that it does not reach around an edge. Never empty.
+pub(super) fn covered(pick: &Pick, radius: f32, context: &mut Context<'_>) -> Vec<VertexId> {
+    let eye = context.view.camera.eye();
+    let faces_eye = |position: Vec3, normal: Vec3| match context.view.camera.projection {
+        Projection::Perspective => (eye - position).dot(normal) >= 0.0,
+        Projection::Orthographic => context.view.camera.forward().dot(normal) <= 0.0,
+    };
+    let side = faces_eye(pick.position, pick.normal);
+    let mut covered: Vec<VertexId> = context.surface.within(pick, radius).iter().map(|&(v, _)| VertexId(v)).collect();
+    let frame = context.surface.frame();
+    covered.retain(|v| match (frame.positions.get(v.index()), frame.normals.get(v.index())) {
+        (Some(&position), Some(&normal)) => faces_eye(position, normal) == side,
+        _ => true,
+    });
+    if covered.is_empty() {
+        covered.push(pick.vertex); // a brush smaller than a face still takes something
     }
-    inside
+    covered
 }

@@ -3,12 +3,21 @@
 use std::sync::Arc;
 
 use glam::{Vec2, Vec3};
-use pliant_geometry::{Bvh, Growth, Ray, SurfaceDistance};
+use pliant_geometry::{Bvh, Growth, Occlusion, Ray, Sight, SurfaceDistance};
 use pliant_solver::VertexId;
+use rayon::prelude::*;
 
-use super::View;
+use super::{Card, View};
 use crate::document::Model;
 use crate::viewport::SurfaceFrame;
+
+/// A sheet that is so much nearer, in viewing distances, hides what is behind it; what is less is the surface itself.
+/// By eye; about a pixel of the picture.
+const SLACK: f32 = 1e-3;
+/// For fewer vertices than this, rays are cheaper than a picture of depths (a ray takes about a microsecond).
+const RAYS_ALONE: usize = 4096;
+/// Rays that are worth a task.
+const RAYS_PER_TASK: usize = 256;
 
 /// What a ray met first.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,6 +59,12 @@ impl Surface {
         &self.frame
     }
 
+    /// A front that leaves a vertex along the surface; `None` where no triangle is.
+    pub fn front_from(&self, Card { vertex, triangle, .. }: Card) -> Option<Growth> {
+        let at = *self.frame.positions.get(vertex.index())?;
+        self.distance.growth(&self.frame.positions, &self.triangles, triangle, at)
+    }
+
     /// Takes over new positions of the same surface.
     pub fn set_frame(&mut self, frame: Arc<SurfaceFrame>) {
         self.frame = frame;
@@ -76,15 +91,40 @@ impl Surface {
     /// Whether nothing hides a vertex from the eye.
     pub fn is_visible(&mut self, v: VertexId, view: &View) -> bool {
         self.refit();
+        self.is_seen(v, view)
+    }
+
+    /// Those of some vertices that nothing hides from the eye, in the same order. A ray for each where they are few; of
+    /// many, only where a picture of depths leaves doubts.
+    pub fn visible_of(&mut self, vertices: Vec<VertexId>, view: &View) -> Vec<VertexId> {
+        self.refit();
+        let surface = &*self;
+        let vertices = vertices.into_par_iter().with_min_len(RAYS_PER_TASK);
+        if vertices.len() < RAYS_ALONE {
+            return vertices.filter(|&v| surface.is_seen(v, view)).collect();
+        }
+        let positions = &surface.frame.positions;
+        let picture = Occlusion::new(positions, &surface.triangles, view.camera.lens(view.size));
+        let slack = SLACK * view.camera.distance;
+        let is_visible = |&v: &VertexId| match picture.sight(positions[v.index()], slack) {
+            Sight::Clear => true,
+            Sight::Hidden => false,
+            Sight::Doubtful => surface.is_seen(v, view),
+        };
+        vertices.filter(is_visible).collect()
+    }
+
+    /// The hierarchy must be current.
+    fn is_seen(&self, v: VertexId, view: &View) -> bool {
         let position = self.frame.positions[v.index()];
         let Some((px, _)) = view.camera.project(position, view.size) else {
             return false;
         };
         let ray = view.camera.ray(px, view.size);
         let along = (position - ray.origin).dot(ray.direction) / ray.direction.length_squared();
-        // Its own faces are at exactly this distance; a thousandth of the viewing distance is nearer than any other
-        // sheet (by eye). Orthographic rays begin far before the eye, so their own length says nothing.
-        let slack = 1e-3 * along.abs().min(view.camera.distance / ray.direction.length());
+        // Its own faces are at exactly this distance. Orthographic rays begin far before the eye, so their own length says
+        // nothing.
+        let slack = SLACK * along.abs().min(view.camera.distance / ray.direction.length());
         !self.bvh.is_blocked(
             Ray { origin: ray.origin, direction: ray.direction },
             along - slack,

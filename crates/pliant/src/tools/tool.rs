@@ -1,8 +1,9 @@
 //! The words that tools and window share.
 
 use glam::Vec2;
+use pliant_solver::VertexId;
 
-use super::{Options, Prepared, Surface};
+use super::{Options, Pick, Prepared, Surface};
 use crate::document::{Command, Document};
 use crate::viewport::{Camera, Dot, Line, Preview};
 
@@ -58,6 +59,8 @@ pub enum Input {
     Drag(Pointer),
     /// Button up.
     Release(Pointer),
+    /// The button was released for the second time in quick succession, at one place.
+    DoubleClick(Pointer),
     /// A key.
     Key(ToolKey),
 }
@@ -115,6 +118,10 @@ pub struct Marks {
     pub preview: Option<Preview>,
     /// Words, next to the pointer for instance.
     pub label: Option<Label>,
+    /// Vertices to tell about in writing.
+    pub cards: Vec<Card>,
+    /// Two of them whose distance along the surface is wanted.
+    pub measured: Option<[Card; 2]>,
 }
 
 /// A few words over the surface.
@@ -124,6 +131,17 @@ pub struct Label {
     pub px: Vec2,
     /// One line.
     pub text: String,
+}
+
+/// A vertex to tell about, beside it or beside the pointer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Card {
+    /// Which.
+    pub vertex: VertexId,
+    /// The triangle that was pointed at: it tells the part of the file.
+    pub triangle: u32,
+    /// The pointer, while the card follows it.
+    pub pointer: Option<Vec2>,
 }
 
 /// Shape of the mouse pointer.
@@ -162,5 +180,9 @@ pub trait Tool: Send {
     /// Whether nothing but a number, or the end of it, is missing: any other command ends it.
     fn waits_for_number(&self) -> bool {
         false
+    }
+    /// What lies under the pointer, for actions that mean it. Tools whose own actions do not say so tell nothing.
+    fn pointed_at(&self) -> Option<Pick> {
+        None
     }
 }

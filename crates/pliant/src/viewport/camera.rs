@@ -6,7 +6,7 @@
 
 use glam::camera::rh::proj::directx;
 use glam::{Mat4, Quat, Vec2, Vec3};
-use pliant_geometry::Ray;
+use pliant_geometry::{Lens, Ray};
 use std::f32::consts::{FRAC_PI_2, PI};
 
 #[cfg(test)]
@@ -216,6 +216,21 @@ impl Camera {
         // `direction` leads from the eye's depth to the target's; this part of it from the picture's beginning.
         let part = 1.0 - self.closest_depth() / self.distance;
         Ray { origin: at_target - direction * part, direction: direction.normalize_or(self.forward()) }
+    }
+
+    /// The same picture for questions about very many points at once.
+    pub fn lens(&self, size: Vec2) -> Lens {
+        let is_perspective = self.projection == Projection::Perspective;
+        Lens {
+            eye: self.eye(),
+            right: self.right(),
+            down: -self.up(),
+            forward: self.forward(),
+            focal_px: self.focal_px(size) / if is_perspective { 1.0 } else { self.distance },
+            size,
+            is_perspective,
+            closest_depth: self.closest_depth(),
+        }
     }
 
     /// Depth at which the picture begins at the earliest, along `forward` from the eye.

@@ -4,11 +4,13 @@ mod actions;
 mod bending;
 mod files;
 mod handles;
+mod inspecting;
 mod learning;
 mod monkey;
 mod painting;
 mod projects;
 mod regions;
+mod selecting;
 mod views;
 
 use std::path::Path;

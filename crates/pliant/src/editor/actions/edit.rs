@@ -48,6 +48,10 @@ actions! {
     TOOL_FILL = Entry::tool("tool.fill", ToolKind::Fill)
         .key(NONE, Key::G)
         .on(|session| session.tool_kind() == ToolKind::Fill);
+    /// The tool that tells about vertices.
+    TOOL_INSPECT = Entry::tool("tool.inspect", ToolKind::Inspect)
+        .key(NONE, Key::Q)
+        .on(|session| session.tool_kind() == ToolKind::Inspect);
 }
 
 fn nothing_to_undo(session: &Session) -> Option<&'static str> {

@@ -9,6 +9,8 @@ use crate::tools::ToolKind;
 pub(super) const NONE: Modifiers = Modifiers::NONE;
 /// Ctrl, or Command on a Mac.
 pub(super) const CTRL: Modifiers = Modifiers::COMMAND;
+/// Shift.
+pub(super) const SHIFT: Modifiers = Modifiers::SHIFT;
 /// Alt, or Option on a Mac.
 pub(super) const ALT: Modifiers = Modifiers::ALT;
 /// Ctrl and Shift.

@@ -40,6 +40,11 @@ pub(super) fn paint(painter: &Painter, rect: Rect, tool: ToolKind, color: Color3
             let tip = tip.iter().map(|&(x, y)| at(x, y)).collect();
             painter.add(Shape::convex_polygon(tip, color, Stroke::NONE));
         }
+        ToolKind::Inspect => {
+            painter.circle_stroke(at(0.42, 0.42), rect.width() * 0.30, stroke);
+            line(&[(0.64, 0.64), (0.92, 0.92)]);
+            painter.circle_filled(at(0.42, 0.42), rect.width() * 0.085, color);
+        }
         ToolKind::Fill => {
             line(&[(0.44, 0.12), (0.80, 0.48), (0.44, 0.84), (0.08, 0.48), (0.44, 0.12)]);
             let paint = [(0.12, 0.50), (0.76, 0.50), (0.44, 0.82)].map(|(x, y)| at(x, y));

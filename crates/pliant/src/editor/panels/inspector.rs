@@ -2,7 +2,7 @@
 
 use egui::{CollapsingHeader, RichText, ScrollArea, Ui};
 
-use super::{gizmo, handles, history, mesh_section, mirror, paint, sections, solver, view, weld};
+use super::{gizmo, handles, history, mesh_section, mirror, paint, select, solver, view, weld};
 use crate::editor::{Action, Session};
 use crate::tools::ToolKind;
 
@@ -19,9 +19,10 @@ pub(in crate::editor) fn inspector(ui: &mut Ui, session: &mut Session) -> Option
         ui.add_space(4.0);
         match kind {
             ToolKind::Handle | ToolKind::Anchor => gizmo::tool(ui, session, &mut chosen),
-            ToolKind::Select => sections::select(ui, session, &mut chosen),
+            ToolKind::Select => select::select(ui, session, &mut chosen),
             ToolKind::Brush => paint::brush(ui, session),
             ToolKind::Fill => paint::fill(ui, session),
+            ToolKind::Inspect => {}
         }
         let about_rigidity = matches!(kind, ToolKind::Brush | ToolKind::Fill);
         if about_rigidity {

@@ -52,7 +52,7 @@ pub(super) fn brush(ui: &mut Ui, session: &mut Session) {
 }
 
 /// Size of the circle.
-fn radius(ui: &mut Ui, session: &mut Session) {
+pub(super) fn radius(ui: &mut Ui, session: &mut Session) {
     let diagonal = session.document().map_or(1.0, |document| document.model().diagonal());
     let options = &mut session.options;
     ui.horizontal(|ui| {

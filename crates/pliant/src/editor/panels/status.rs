@@ -90,7 +90,7 @@ fn preparing(progress: f64) -> String {
 }
 
 /// 12345 as `12 345`.
-fn grouped(n: usize) -> String {
+pub(super) fn grouped(n: usize) -> String {
     let digits = n.to_string();
     let mut out = String::with_capacity(digits.len() + digits.len() / 3);
     for (k, digit) in digits.chars().enumerate() {
