@@ -76,9 +76,12 @@ impl Session {
         self.apply(Command::Commit);
     }
 
-    /// Esc: what the tool has under way is taken back, or the comparison is closed.
+    /// Esc: what the tool or a number in the inspector has under way is taken back, or the comparison is closed.
     pub fn escape(&mut self) {
-        if self.compare.is_some() && !self.tool.is_active() {
+        let in_step = self.document().is_some_and(|document| document.in_step());
+        if in_step && !self.tool.is_active() {
+            self.apply(Command::Cancel);
+        } else if self.compare.is_some() && !self.tool.is_active() {
             self.close_compare();
         } else {
             self.input(crate::tools::Input::Key(crate::tools::ToolKey::Escape));

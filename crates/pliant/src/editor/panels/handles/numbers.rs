@@ -93,7 +93,10 @@ fn react(ui: &Ui, session: &mut Session, step: &'static str, (response, wanted):
     }
     let Some(wanted) = wanted else { return };
     if response.dragged() {
-        session.place_active(wanted);
+        // Esc has taken the drag back: it stays so until the button is let go.
+        if session.document().is_some_and(|document| document.in_step()) {
+            session.place_active(wanted);
+        }
     } else {
         session.apply(Command::Begin(step));
         session.place_active(wanted);
