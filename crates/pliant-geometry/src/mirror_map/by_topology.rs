@@ -15,7 +15,8 @@ use std::collections::HashMap;
 
 /// Middle edges that are tried, the likeliest first; wrong ones differ after a few triangles. By eye.
 const MOST_SEEDS: usize = 4096;
-/// All trials together may meet this many times the triangles of the mesh: a few seconds for a million. By eye.
+/// All trials together may meet this many times the triangles of the mesh (measured: 14 s in all for a million vertices
+/// that are nowhere symmetric).
 const MOST_ROUNDS: usize = 4;
 /// Triangles of a piece off the middle that are tried, in order; the first is right unless places are crowded. By eye.
 const MOST_TRIES_BY_PLACE: usize = 8;

