@@ -1,11 +1,12 @@
 //! Developer commands: `cargo xtask test` runs every test, `cargo xtask assets` makes the samples anew, `cargo xtask
-//! validate` asks the glTF validator, `cargo xtask bench` measures, `cargo xtask corpus` tries mesh files that people
-//! have.
+//! guide` draws the pictures of the guide, `cargo xtask validate` asks the glTF validator, `cargo xtask bench` measures,
+//! `cargo xtask corpus` tries mesh files that people have.
 
 mod assets;
 mod bench;
 mod corpus;
 mod failure;
+mod guide;
 mod shapes;
 mod testing;
 mod validating;
@@ -37,6 +38,8 @@ enum Task {
         #[arg(long)]
         check: bool,
     },
+    /// Draw the pictures of docs/guide.md anew
+    Guide,
     /// Hold what is saved as glTF against the Khronos Group's validator (needs node and npm)
     Validate {
         /// Mesh files to save, instead of the samples and the test data
@@ -55,6 +58,7 @@ fn main() -> ExitCode {
     let done = match Arguments::parse().task {
         Task::Test { filter } => testing::run(&filter),
         Task::Assets { check } => assets::run(check),
+        Task::Guide => guide::run(),
         Task::Validate { files } => validating::run(&files),
         Task::Bench(options) => bench::run(&options),
         Task::ProbeMemory(probe) => bench::probe(probe),

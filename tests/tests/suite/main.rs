@@ -5,6 +5,7 @@ mod commands;
 mod editor;
 mod editor_window;
 mod editor_words;
+mod guide;
 mod learn_command;
 mod learning;
 mod paper_figures;

@@ -1,0 +1,106 @@
+//! A window for pictures: opens a sample, takes input, waits, and is drawn.
+
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use egui::{Key, Modifiers, Pos2, Vec2};
+use egui_kittest::Harness;
+use image::RgbaImage;
+use image::imageops::{FilterType, resize};
+use pliant::editor::{EditorApp, Job, Sample, Session};
+use pliant::solving::SolveState;
+
+/// Size of the window in points, and of the pictures in pixels: a page's width.
+const SIZE: Vec2 = Vec2::new(960.0, 640.0);
+/// Pixels drawn for one that is kept, along a side.
+const FINER: u32 = 2;
+
+/// The window.
+pub(crate) struct Stage(Harness<'static, EditorApp>);
+
+impl Stage {
+    /// With a sample open, seen from the front.
+    pub(crate) fn new(sample: Sample) -> Stage {
+        let harness = Harness::builder().with_size(SIZE).with_pixels_per_point(FINER as f32).wgpu();
+        let app = harness.build_eframe(|cc| EditorApp::new(cc, Vec::new()).expect("a graphics adapter"));
+        let mut stage = Stage(app);
+        stage.until("the start sample is open", |session| session.document().is_some());
+        stage.session().start(Job::OpenSample(sample));
+        stage.until("the sample is open", |session| {
+            session.running_job().is_none() && session.document().is_some_and(|d| d.model().name == sample.name())
+        });
+        stage.session().dismiss_welcome();
+        stage.0.run_steps(4);
+        stage
+    }
+
+    /// What is behind the window.
+    pub(crate) fn session(&mut self) -> &mut Session {
+        self.0.state_mut().session()
+    }
+
+    /// Steps until `done` says so; ten minutes are a failure on any machine.
+    pub(crate) fn until(&mut self, what: &str, done: impl Fn(&Session) -> bool) {
+        let start = Instant::now();
+        while !done(self.0.state_mut().session()) {
+            assert!(start.elapsed() < Duration::from_secs(600), "waited in vain until {what}");
+            self.0.step();
+            std::thread::sleep(Duration::from_millis(2));
+        }
+    }
+
+    /// Waits for the surface to come to rest.
+    pub(crate) fn settle(&mut self) {
+        self.0.run_steps(2);
+        self.until("the surface settles", |session| {
+            let revision = session.document().map(|document| document.revision());
+            session.status.report.as_ref().is_some_and(|report| {
+                Some(report.revision) == revision && matches!(report.state, SolveState::Settled | SolveState::Resting)
+            })
+        });
+    }
+
+    /// Presses a key.
+    pub(crate) fn key(&mut self, modifiers: Modifiers, key: Key) {
+        self.0.key_press_modifiers(modifiers, key);
+        self.0.run_steps(3);
+    }
+
+    /// Drags with the left button along points of the window.
+    pub(crate) fn drag(&mut self, path: &[Pos2]) {
+        self.0.hover_at(path[0]);
+        self.0.step();
+        self.0.drag_at(path[0]);
+        self.0.step();
+        for pair in path.windows(2) {
+            for k in 1..=8 {
+                self.0.hover_at(pair[0].lerp(pair[1], k as f32 / 8.0));
+                self.0.step();
+            }
+        }
+        self.0.drop_at(path[path.len() - 1]);
+        self.0.run_steps(2);
+    }
+
+    /// Rests the pointer somewhere.
+    pub(crate) fn hover(&mut self, at: Pos2) {
+        self.0.hover_at(at);
+        self.0.run_steps(2);
+    }
+
+    /// Keeps what the window looks like now.
+    pub(crate) fn keep(&mut self, file: &Path) -> Result<(), String> {
+        // Edges are smoothed once nothing has moved for a moment.
+        std::thread::sleep(Duration::from_millis(400));
+        self.0.run_steps(3);
+        keep(&self.0.render()?, FINER, file)
+    }
+}
+
+/// Writes a picture, made smaller by averaging.
+pub(crate) fn keep(drawn: &RgbaImage, finer: u32, file: &Path) -> Result<(), String> {
+    let (width, height) = drawn.dimensions();
+    let small = resize(drawn, width / finer, height / finer, FilterType::Triangle);
+    let opaque = image::DynamicImage::ImageRgba8(small).into_rgb8();
+    opaque.save(file).map_err(|error| format!("{}: {error}", file.display()))
+}
