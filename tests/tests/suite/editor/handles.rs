@@ -153,8 +153,8 @@ fn find_part(session: &mut Session, part: GizmoPart) -> Vec2 {
     let at = open.document.model().to_view(settings.place(scene).expect("a gizmo"));
     let center = open.camera.project(at, size).expect("in front of the eye").0;
     let gizmo = Gizmo::new(at, settings.axes(scene, &view), settings.shown, &view);
-    // Rings reach 106 points out; a step of 2 finds strokes that are taken from 7 points away.
-    let steps = || (-60..=60).map(|k| 2.0 * k as f32);
+    // Rings reach 106 points out; a step of 4 finds strokes that are taken from 7 points away.
+    let steps = || (-30..=30).map(|k| 4.0 * k as f32);
     let places = steps().flat_map(|y| steps().map(move |x| center + Vec2::new(x, y)));
     places.into_iter().find(|&px| gizmo.hit(px, &view) == Some(part)).unwrap_or_else(|| panic!("no {part:?}"))
 }
