@@ -131,7 +131,7 @@ pub use analysis::Analysis;
 pub use analysis::defects::{Defect, Defects};
 pub use analysis::weights::Weights;
 pub use deformer::{Deformer, Method};
-pub use embedded::{DeformationGraph, Embedded};
+pub use embedded::{DeformationGraph, Embedded, EnergyWeights};
 pub use error::{LearnError, MeshError, RigidityError, SolveError};
 pub use held::LooseComponents;
 pub use ids::VertexId;

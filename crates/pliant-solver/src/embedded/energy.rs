@@ -1,4 +1,4 @@
-//! E = E_rot + 10 E_reg + 100 E_con in unit-box coordinates, and half its gradient.
+//! E = E_rot + 10 E_reg + 100 E_con in unit-box coordinates (or with other weights), and half its gradient.
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -12,10 +12,24 @@ use glam::{DMat3, DVec3};
 
 use super::affine::{Affine, add_outer, linear, times};
 
-/// Weights of the energies, from the paper by Sumner, Schmid and Pauly.
+/// Weight of E_rot: only ratios count.
 pub(super) const ROTATION: f64 = 1.0;
-pub(super) const REGULARITY: f64 = 10.0;
-pub(super) const CONSTRAINT: f64 = 100.0;
+
+/// Weights of the other energies beside that of [E_rot](self), 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EnergyWeights {
+    /// Of E_reg: how much linked nodes should agree.
+    pub regularity: f64,
+    /// Of E_con: how strongly handles pull.
+    pub constraint: f64,
+}
+
+impl Default for EnergyWeights {
+    /// Those of the paper by Sumner, Schmid and Pauly.
+    fn default() -> EnergyWeights {
+        EnergyWeights { regularity: 10.0, constraint: 100.0 }
+    }
+}
 
 /// The terms of E for the nodes that some held vertex has a hold on. All lengths are those of the unit box.
 pub(super) struct Terms {
@@ -24,6 +38,7 @@ pub(super) struct Terms {
     /// Pairs (lower, upper).
     pub(super) links: Vec<[u32; 2]>,
     pub(super) held: HeldTerms,
+    pub(super) weights: EnergyWeights,
 }
 
 /// The held vertices, `k` entries each.
@@ -63,7 +78,7 @@ impl Terms {
             regularity += unlike_neighbor(&x[j as usize], &x[k as usize], d).length_squared();
             regularity += unlike_neighbor(&x[k as usize], &x[j as usize], -d).length_squared();
         }
-        ROTATION * rotation + REGULARITY * regularity + CONSTRAINT * self.constraint(x)
+        ROTATION * rotation + self.weights.regularity * regularity + self.weights.constraint * self.constraint(x)
     }
 
     /// E_con.
@@ -80,8 +95,8 @@ impl Terms {
     /// box, after some ten operations.
     pub(super) fn floor(&self) -> f64 {
         let n = 6.0 * ROTATION * self.nodes.len() as f64
-            + 2.0 * REGULARITY * self.links.len() as f64
-            + CONSTRAINT * self.held.targets.len() as f64;
+            + 2.0 * self.weights.regularity * self.links.len() as f64
+            + self.weights.constraint * self.held.targets.len() as f64;
         let reach = self.held.targets.iter().fold(1.0, |most: f64, p| most.max(p.abs().max_element()));
         n * (16.0 * f64::EPSILON * reach).powi(2)
     }
@@ -94,13 +109,13 @@ impl Terms {
         for &[j, k] in &self.links {
             let d = self.nodes[k as usize] - self.nodes[j as usize];
             for (j, k, d) in [(j as usize, k as usize, d), (k as usize, j as usize, -d)] {
-                let r = unlike_neighbor(&x[j], &x[k], d) * REGULARITY;
+                let r = unlike_neighbor(&x[j], &x[k], d) * self.weights.regularity;
                 add_outer(&mut out[j], r, &[d.x, d.y, d.z, 1.0]);
                 add_outer(&mut out[k], r, &[0.0, 0.0, 0.0, -1.0]);
             }
         }
         for (entries, constant) in self.held.iter() {
-            let r = off_target(x, entries, constant) * CONSTRAINT;
+            let r = off_target(x, entries, constant) * self.weights.constraint;
             entries.iter().for_each(|(j, c)| add_outer(&mut out[*j as usize], r, c));
         }
     }

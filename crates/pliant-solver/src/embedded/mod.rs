@@ -51,6 +51,7 @@ use std::sync::Arc;
 
 use glam::{DMat3, DQuat, DVec3};
 
+pub use energy::EnergyWeights;
 pub use graph::DeformationGraph;
 
 use crate::held::Held;
@@ -121,7 +122,8 @@ impl Embedded {
         loose: LooseComponents,
     ) -> Result<Embedded, SolveError> {
         let held = Held::new(&analysis.layout, held, &analysis.layout.rest, loose)?;
-        let terms = Terms { nodes: Vec::new(), links: Vec::new(), held: HeldTerms::default() };
+        let weights = EnergyWeights::default();
+        let terms = Terms { nodes: Vec::new(), links: Vec::new(), held: HeldTerms::default(), weights };
         let mut new = Embedded {
             place_of: vec![INACTIVE; graph.n_nodes()],
             policy: loose,
@@ -210,6 +212,21 @@ impl Embedded {
         self.take_held();
         self.refresh();
         Ok(())
+    }
+
+    /// Other weights of the energies; each must be finite and above 0, and otherwise stays as it is. The pose stays.
+    pub fn set_weights(&mut self, weights: EnergyWeights) {
+        let good = |new: f64, old: f64| if new.is_finite() && new > 0.0 { new } else { old };
+        let old = self.terms.weights;
+        self.terms.weights = EnergyWeights {
+            regularity: good(weights.regularity, old.regularity),
+            constraint: good(weights.constraint, old.constraint),
+        };
+        self.quadratic.assemble(&self.terms);
+        if let Some(direction) = &mut self.direction {
+            direction.forget();
+        }
+        self.refresh();
     }
 
     /// One step of Gauss–Newton; E never rises.
@@ -334,7 +351,7 @@ impl Embedded {
         // Links join nodes of one component.
         let links = self.graph.links.iter().map(|link| link.map(|node| place_of[node as usize]));
         let links = links.filter(|link| link[0] != INACTIVE).collect();
-        let terms = Terms { nodes, links, held: HeldTerms::default() };
+        let terms = Terms { nodes, links, held: HeldTerms::default(), weights: self.terms.weights };
         self.direction = Some(Direction::new(&terms).map_err(explain)?);
         let state = |&node: &u32| self.place_of[node as usize];
         let is_new = active.iter().map(|node| state(node) == INACTIVE).collect();

@@ -2,7 +2,7 @@
 //! alike, so theirs is three times the same matrix of 4 × 4 blocks, on (R_c1, R_c2, R_c3, t_c) of the nodes.
 
 use super::affine::Affine;
-use super::energy::{CONSTRAINT, HeldTerms, REGULARITY, Terms};
+use super::energy::{EnergyWeights, HeldTerms, Terms};
 
 pub(super) type Block = [[f64; 4]; 4];
 
@@ -29,31 +29,33 @@ impl Quadratic {
     pub(super) fn assemble(&mut self, terms: &Terms) {
         self.diagonal.fill([[0.0; 4]; 4]);
         self.links.fill([[0.0; 4]; 4]);
+        let EnergyWeights { regularity, .. } = terms.weights;
         for (&[j, k], block) in terms.links.iter().zip(&mut self.links) {
             let (j, k) = (j as usize, k as usize);
             let d = terms.nodes[k] - terms.nodes[j];
             // R_j d + t_j − t_k, and the other way around.
             let (mine, theirs, unit) = ([d.x, d.y, d.z, 1.0], [-d.x, -d.y, -d.z, 1.0], [0.0, 0.0, 0.0, -1.0]);
-            add(&mut self.diagonal[j], REGULARITY, &mine, &mine);
-            add(&mut self.diagonal[j], REGULARITY, &unit, &unit);
-            add(&mut self.diagonal[k], REGULARITY, &theirs, &theirs);
-            add(&mut self.diagonal[k], REGULARITY, &unit, &unit);
-            add(block, REGULARITY, &mine, &unit);
-            add(block, REGULARITY, &unit, &theirs);
+            add(&mut self.diagonal[j], regularity, &mine, &mine);
+            add(&mut self.diagonal[j], regularity, &unit, &unit);
+            add(&mut self.diagonal[k], regularity, &theirs, &theirs);
+            add(&mut self.diagonal[k], regularity, &unit, &unit);
+            add(block, regularity, &mine, &unit);
+            add(block, regularity, &unit, &theirs);
         }
         self.add_held(terms, &terms.held);
     }
 
     fn add_held(&mut self, terms: &Terms, held: &HeldTerms) {
+        let EnergyWeights { constraint, .. } = terms.weights;
         for (entries, _) in held.iter() {
             for (at, (j, a)) in entries.iter().enumerate() {
-                add(&mut self.diagonal[*j as usize], CONSTRAINT, a, a);
+                add(&mut self.diagonal[*j as usize], constraint, a, a);
                 for (k, b) in &entries[at + 1..] {
                     let ((j, a), (k, b)) = if j < k { ((*j, a), (*k, b)) } else { ((*k, b), (*j, a)) };
                     let links = self.begin[j as usize]..self.begin[j as usize + 1];
                     // Nodes that carry a vertex together are linked; others have no weight, and entries of zeros.
                     if let Ok(place) = terms.links[links.clone()].binary_search_by_key(&k, |link| link[1]) {
-                        add(&mut self.links[links.start + place], CONSTRAINT, a, b);
+                        add(&mut self.links[links.start + place], constraint, a, b);
                     }
                 }
             }

@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use pliant_solver::{DeformationGraph, Method as SolverMethod};
+use pliant_solver::{DeformationGraph, EnergyWeights, Method as SolverMethod};
 
 /// The methods there are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -86,6 +86,10 @@ pub struct Method {
     pub nodes: usize,
     /// Nodes that carry a vertex (k).
     pub neighbors: usize,
+    /// How much nodes side by side should agree (the weight of E_reg, beside 1 for being rotations).
+    pub agreement: f64,
+    /// How strongly handles pull nodes (the weight of E_con).
+    pub pull: f64,
 }
 
 impl Default for Method {
@@ -96,6 +100,8 @@ impl Default for Method {
             alpha: SolverMethod::ALPHA,
             nodes: SolverMethod::NODES,
             neighbors: SolverMethod::NODE_NEIGHBORS,
+            agreement: EnergyWeights::default().regularity,
+            pull: EnergyWeights::default().constraint,
         }
     }
 }
@@ -107,6 +113,8 @@ impl Method {
     pub const NODES: RangeInclusive<usize> = DeformationGraph::NODES;
     /// How many nodes may carry a vertex.
     pub const NEIGHBORS: RangeInclusive<usize> = DeformationGraph::NEIGHBORS;
+    /// Weights of energies that can be had: beyond, single digits are left of what weighs least.
+    pub const WEIGHTS: RangeInclusive<f64> = 1e-3..=1e6;
 
     /// Another kind with the same parameters.
     pub fn with(self, kind: MethodKind) -> Method {
@@ -125,7 +133,17 @@ impl Method {
             let allowed = range(Self::ALPHAS.start(), Self::ALPHAS.end());
             return Some(("smoothness (α)", self.alpha.to_string(), allowed));
         }
+        for (name, value) in [("agreement of nodes", self.agreement), ("pull of handles", self.pull)] {
+            if !Self::WEIGHTS.contains(&value) {
+                return Some((name, value.to_string(), range(Self::WEIGHTS.start(), Self::WEIGHTS.end())));
+            }
+        }
         whole("nodes", self.nodes, &Self::NODES).or_else(|| whole("nodes a vertex", self.neighbors, &Self::NEIGHBORS))
+    }
+
+    /// The weights of embedded deformation as the solver takes them.
+    pub fn weights(&self) -> EnergyWeights {
+        EnergyWeights { regularity: self.agreement, constraint: self.pull }
     }
 
     /// Whether both bend a surface alike: parameters of methods not in use do not matter.
@@ -139,7 +157,9 @@ impl Method {
             MethodKind::RRing | MethodKind::Arap => other.kind.is_of_rings(),
             MethodKind::SrArap => other.kind == self.kind && self.alpha == other.alpha,
             MethodKind::Embedded => {
-                other.kind == self.kind && (self.nodes, self.neighbors) == (other.nodes, other.neighbors)
+                other.kind == self.kind
+                    && (self.nodes, self.neighbors) == (other.nodes, other.neighbors)
+                    && self.weights() == other.weights()
             }
         }
     }
@@ -163,6 +183,8 @@ mod tests {
             (Method { alpha: -1.0, ..method }, "smoothness (α)"),
             (Method { nodes: 0, ..method }, "nodes"),
             (Method { neighbors: 1, ..method }, "nodes a vertex"),
+            (Method { agreement: 0.0, ..method }, "agreement of nodes"),
+            (Method { pull: f64::INFINITY, ..method }, "pull of handles"),
         ] {
             assert_eq!(bad.fault().map(|fault| fault.0), Some(name), "{bad:?}");
         }

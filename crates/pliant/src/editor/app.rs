@@ -156,13 +156,14 @@ impl eframe::App for EditorApp {
             chosen.extend(panels::inspector(ui, &mut self.session));
         });
         CentralPanel::no_frame().show(ui, |ui| {
-            let rect = ui.available_rect_before_wrap();
-            let picture = self.compare.show(ui, &mut self.viewport, &mut self.session);
-            panels::inspect(ui, picture, &mut self.session);
-            panels::legend(ui, picture, &mut self.session);
-            panels::learn(ui, rect, &mut self.session);
-            panels::welcome(ui, rect, &mut self.session);
-            panels::notices(ui, rect, &mut self.session);
+            let around = self.compare.show(ui, &mut self.viewport, &mut self.session);
+            panels::inspect(ui, around.picture, &mut self.session);
+            panels::legend(ui, around.legend, &mut self.session);
+            panels::learn(ui, around.messages, &mut self.session);
+            if self.session.compare().is_none() {
+                panels::welcome(ui, around.messages, &mut self.session);
+            }
+            panels::notices(ui, around.messages, &mut self.session);
         });
         for action in chosen {
             action.perform(self, &ctx);

@@ -146,6 +146,10 @@ pub(super) struct MethodRecord {
     alpha: f64,
     nodes: usize,
     neighbors: usize,
+    #[serde(default)]
+    agreement: Option<f64>,
+    #[serde(default)]
+    pull: Option<f64>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -165,8 +169,8 @@ impl MethodRecord {
             MethodKind::SrArap => KindRecord::SrArap,
             MethodKind::Embedded => KindRecord::Embedded,
         };
-        let Method { alpha, nodes, neighbors, .. } = *method;
-        MethodRecord { kind, alpha, nodes, neighbors }
+        let Method { alpha, nodes, neighbors, agreement, pull, .. } = *method;
+        MethodRecord { kind, alpha, nodes, neighbors, agreement: Some(agreement), pull: Some(pull) }
     }
 
     pub(super) fn method(self) -> Result<Method, Flaw> {
@@ -176,7 +180,10 @@ impl MethodRecord {
             KindRecord::SrArap => MethodKind::SrArap,
             KindRecord::Embedded => MethodKind::Embedded,
         };
-        let method = Method { kind, alpha: self.alpha, nodes: self.nodes, neighbors: self.neighbors };
+        let MethodRecord { alpha, nodes, neighbors, .. } = self;
+        let usual = Method::default();
+        let (agreement, pull) = (self.agreement.unwrap_or(usual.agreement), self.pull.unwrap_or(usual.pull));
+        let method = Method { kind, alpha, nodes, neighbors, agreement, pull };
         match method.fault() {
             Some((what, value, allowed)) => Err(Flaw(format!("{what} is {value}, and must be {allowed}"))),
             None => Ok(method),

@@ -100,7 +100,11 @@ impl Bent {
                 solver.set_minimizer(MINIMIZER);
                 Bent::SrArap(Box::new(solver))
             }
-            Material::Nodes(graph) => Bent::Embedded(Box::new(Embedded::new(analysis, graph, holds.vertices, loose)?)),
+            Material::Nodes(graph) => {
+                let mut solver = Embedded::new(analysis, graph, holds.vertices, loose)?;
+                solver.set_weights(wish.method.weights());
+                Bent::Embedded(Box::new(solver))
+            }
         };
         let deformer = bent.deformer_mut();
         deformer.set_pose(pose)?;

@@ -52,11 +52,14 @@ impl Lane {
             // Anew from rest, with the search for a good beginning.
             (self.engine, self.pose) = (None, None);
         }
-        let only_colors = wish.revision == self.wish.revision && !wish.is_other_system(&self.wish);
-        if !only_colors {
+        // The document may have changed in what this pane does not look at: its method, for one.
+        let is_same = !wish.is_other_system(&self.wish)
+            && wish.loose == self.wish.loose
+            && held_by(&wish.groups) == held_by(&self.wish.groups);
+        if !is_same {
             (self.iterations, self.spent) = (0, Duration::ZERO);
         }
-        self.measures = self.measures.filter(|_| only_colors);
+        self.measures = self.measures.filter(|_| is_same);
         (self.is_new, self.wish) = (true, wish);
     }
 
@@ -90,7 +93,8 @@ impl Lane {
         if self.is_new {
             if self.turn_to_wish(ground, is_overruled).is_continue() {
                 self.is_new = false;
-                self.spent += begun.elapsed();
+                // What has settled is only looked at again.
+                self.spent += if self.measures.is_some() { Duration::ZERO } else { begun.elapsed() };
                 frame = self.look();
             }
         } else if self.state == SolveState::Iterating {

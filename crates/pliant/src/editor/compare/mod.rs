@@ -67,7 +67,11 @@ impl Compare {
     /// Takes what the thread has to show. Whether anything is new.
     pub fn poll(&mut self) -> bool {
         let revision = self.sent.map_or(0, |sent| sent.0);
-        self.panes.iter_mut().filter_map(|pane| pane.poll(revision).then_some(())).count() > 0
+        let mut is_new = false;
+        for pane in &mut self.panes {
+            is_new |= pane.poll(revision);
+        }
+        is_new
     }
 
     /// The panes, in the order in which they are shown.

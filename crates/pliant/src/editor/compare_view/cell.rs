@@ -18,27 +18,13 @@ pub(super) fn background(ui: &Ui, rect: Rect, session: &Session) {
     ui.painter().rect_filled(rect, 0.0, theme::palette(session.look.theme).panel);
 }
 
-/// Above and below the document's own picture.
+/// Above the document's own picture. Below is room for the legend; what its solver does is told in the status line.
 pub(super) fn own(ui: &mut Ui, parts: &Parts, session: &Session) {
     let kind = session.method().unwrap_or_default().kind;
     line(ui, parts.header, |ui| {
         ui.label(RichText::new(format!("Document: {}", kind.label())).strong())
             .on_hover_text("Drag handles and paint here: all panes follow");
     });
-    let report = session.status.report.as_ref();
-    let state = report.map(|report| report.state.clone());
-    let energies = report.filter(|report| !report.energies.is_empty());
-    let energy = energies.map_or_else(String::new, |report| format!("energy {}", number(report.energy)));
-    lines(
-        ui,
-        parts.footer,
-        session,
-        [
-            (words(state.as_ref()), "What the document's own solver is doing"),
-            (energy, kind.description()),
-            ("drag and paint here".into(), "All panes solve what you do to the document"),
-        ],
-    );
 }
 
 /// Above and below a pane; returns what was pressed.
@@ -83,7 +69,7 @@ fn numbers(pane: &Pane) -> [(String, &'static str); 3] {
             let mut parts = vec![format!("{} crossings", measures.crossings)];
             parts.extend(measures.volume.map(|ratio| format!("volume {:.1} %", 100.0 * ratio)));
             if pane.kind.method() == MethodKind::Embedded {
-                parts.push(format!("handles off {}", number(measures.handle_error)));
+                parts.push(format!("off {:.1e}", measures.handle_error));
             }
             parts.join(" · ")
         },

@@ -64,6 +64,8 @@ impl Export {
         let name = format!("{}-methods.png", model.name);
         let folder = model.file.path.as_deref().and_then(|path| path.parent());
         let path = folder.map_or_else(|| PathBuf::from(&name), |folder| folder.join(&name));
+        // A path that says where it is, wherever the program was started.
+        let path = std::path::absolute(&path).unwrap_or(path);
         self.stage = Stage::Asking(path.display().to_string());
     }
 

@@ -20,6 +20,8 @@ use picture::PanePicture;
 const BAR: f32 = 34.0;
 const HEADER: f32 = 26.0;
 const FOOTER: f32 = 52.0;
+/// From the corner of the viewport to the legend.
+const LEGEND_MARGIN: f32 = 12.0;
 /// Between cells.
 const GAP: f32 = 2.0;
 /// The document's own cell and one for every pane.
@@ -32,27 +34,37 @@ pub(super) struct CompareView {
     export: Export,
 }
 
+/// Where what lies over the picture belongs.
+pub(super) struct Around {
+    /// The document's own picture.
+    pub(super) picture: Rect,
+    /// The legend stands in the lower left corner of this.
+    pub(super) legend: Rect,
+    /// Messages and panels stand in this.
+    pub(super) messages: Rect,
+}
+
 impl CompareView {
     /// Whether a dialog of the comparison has the keyboard.
     pub(super) fn is_asking(&self) -> bool {
         self.export.is_asking()
     }
 
-    /// Fills `ui` with the viewport, or with the comparison while it is open. Returns where the document's picture is.
-    pub(super) fn show(&mut self, ui: &mut Ui, viewport: &mut ViewportPanel, session: &mut Session) -> Rect {
+    /// Fills `ui` with the viewport, or with the comparison while it is open. Returns where the rest belongs.
+    pub(super) fn show(&mut self, ui: &mut Ui, viewport: &mut ViewportPanel, session: &mut Session) -> Around {
         let all = ui.available_rect_before_wrap();
         self.export.poll(ui.ctx(), session);
         if session.compare().is_none() {
             self.close(viewport);
             viewport.show(ui, session);
-            return all;
+            return Around { picture: all, legend: all, messages: all };
         }
         ui.painter().rect_filled(all, 0.0, theme::palette(session.look.theme).line);
         let bar = Rect::from_min_size(all.min, vec2(all.width(), BAR));
         let grid = Rect::from_min_max(pos2(all.left(), bar.bottom()), all.max);
         self.bar(ui, bar, session);
         let cells = cells(grid);
-        let mut picture = all;
+        let (mut picture, mut legend) = (all, all);
         for (place, rect) in cells.into_iter().enumerate() {
             let parts = Parts::of(rect);
             cell::background(ui, rect, session);
@@ -61,12 +73,14 @@ impl CompareView {
                     cell::own(ui, &parts, session);
                     ui.scope_builder(UiBuilder::new().max_rect(parts.picture), |ui| viewport.show(ui, session));
                     picture = parts.picture;
+                    // The legend stands in the lower left corner, a margin away: here below the picture, not on it.
+                    legend = parts.footer.translate(vec2(-LEGEND_MARGIN, LEGEND_MARGIN));
                 }
                 Some(kind) => self.pane(ui, &parts, kind, (viewport, session)),
             }
         }
         self.export.ask(ui.ctx(), grid);
-        picture
+        Around { picture, legend, messages: grid }
     }
 
     /// Lets the device have its memory back.

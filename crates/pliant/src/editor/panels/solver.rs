@@ -87,22 +87,38 @@ fn parameters(ui: &mut Ui, method: Method, commands: &mut Vec<Command>) {
                 ui.label("smoothness");
             });
         }
-        MethodKind::Embedded => {
-            ui.horizontal(|ui| {
-                let value = DragValue::new(&mut new.nodes).range(Method::NODES).speed(NODES_PER_POINT);
-                let tip = "Points on the surface that carry it. Few are smooth and quick, many follow details";
-                step(&ui.add(value).on_hover_text(tip), new, method, commands);
-                ui.label("nodes");
-                new = method;
-                let value = DragValue::new(&mut new.neighbors).range(Method::NEIGHBORS).speed(0.05);
-                let tip = "How many nodes carry each vertex (k in the paper, 4)";
-                step(&ui.add(value).on_hover_text(tip), new, method, commands);
-                ui.label("a vertex");
-            });
-            ui.label(RichText::new("Handles are held softly: the surface comes near to them.").weak());
-        }
+        MethodKind::Embedded => nodes(ui, method, commands),
     }
     reset(ui, method, commands);
+}
+
+/// The parameters of embedded deformation.
+fn nodes(ui: &mut Ui, method: Method, commands: &mut Vec<Command>) {
+    ui.horizontal(|ui| {
+        let mut new = method;
+        let value = DragValue::new(&mut new.nodes).range(Method::NODES).speed(NODES_PER_POINT);
+        let tip = "Points on the surface that carry it. Few are smooth and quick, many follow details";
+        step(&ui.add(value).on_hover_text(tip), new, method, commands);
+        ui.label("nodes,");
+        new = method;
+        let value = DragValue::new(&mut new.neighbors).range(Method::NEIGHBORS).speed(0.05);
+        let tip = "How many nodes carry each vertex (k in the paper, 4)";
+        step(&ui.add(value).on_hover_text(tip), new, method, commands);
+        ui.label("a vertex");
+    });
+    ui.horizontal(|ui| {
+        let mut new = method;
+        let value = DragValue::new(&mut new.agreement).range(Method::WEIGHTS).speed(0.1);
+        let tip = "How much nodes side by side should agree, beside 1 for turning rigidly (w_reg in the paper, 10)";
+        step(&ui.add(value).on_hover_text(tip), new, method, commands);
+        ui.label("agreement,");
+        new = method;
+        let value = DragValue::new(&mut new.pull).range(Method::WEIGHTS).speed(1.0);
+        let tip = "How strongly handles pull: more brings the surface nearer to them (w_con in the paper, 100)";
+        step(&ui.add(value).on_hover_text(tip), new, method, commands);
+        ui.label("pull");
+    });
+    ui.label(RichText::new("Handles are held softly: the surface comes near to them.").weak());
 }
 
 /// Back to what the papers use.
@@ -112,7 +128,7 @@ fn reset(ui: &mut Ui, method: Method, commands: &mut Vec<Command>) {
     }
     let usual = match method.kind {
         MethodKind::SrArap => Method { alpha: Method::default().alpha, ..method },
-        _ => Method { nodes: Method::default().nodes, neighbors: Method::default().neighbors, ..method },
+        _ => Method { kind: method.kind, alpha: method.alpha, ..Method::default() },
     };
     let button = ui.add_enabled(usual != method, Button::new("Usual values").small());
     let response =
