@@ -45,7 +45,7 @@ pub(crate) fn step_until(window: &mut Window, what: &str, done: impl Fn(&Session
     }
 }
 
-fn settle(window: &mut Window) {
+pub(crate) fn settle(window: &mut Window) {
     step_until(window, "the surface settles", |session| {
         let revision = document(session).revision();
         session.status.report.as_ref().is_some_and(|report| {
@@ -59,7 +59,7 @@ fn document(session: &Session) -> &Document {
 }
 
 /// Where a vertex is in the window, in points.
-fn place(window: &mut Window, v: u32) -> egui::Pos2 {
+pub(crate) fn place(window: &mut Window, v: u32) -> egui::Pos2 {
     let corner = window.get_by_label("viewport").rect().min;
     let session = window.state_mut().session();
     let open = session.open().expect("open");
@@ -69,7 +69,7 @@ fn place(window: &mut Window, v: u32) -> egui::Pos2 {
 }
 
 /// The vertex nearest to the eye at the end (`true`) or start of the bar.
-fn front_vertex(window: &mut Window, fraction: f64) -> u32 {
+pub(crate) fn front_vertex(window: &mut Window, fraction: f64) -> u32 {
     let session = window.state_mut().session();
     let open = session.open().expect("open");
     let (lo, hi) = open.bounds();
@@ -82,7 +82,7 @@ fn front_vertex(window: &mut Window, fraction: f64) -> u32 {
         .expect("a vertex")
 }
 
-fn click(window: &mut Window, at: egui::Pos2) {
+pub(crate) fn click(window: &mut Window, at: egui::Pos2) {
     window.hover_at(at);
     window.step();
     window.drag_at(at);

@@ -2,6 +2,7 @@
 
 mod actions;
 mod bending;
+mod comparing;
 mod files;
 mod handles;
 mod inspecting;
