@@ -196,6 +196,14 @@ pub enum SaveError {
         /// Bytes that are read.
         limit: u64,
     },
+    /// Several shapes cannot be put into that file.
+    #[error("{}: not saved: {reason}", path.display())]
+    NoMorphs {
+        /// The target.
+        path: PathBuf,
+        /// Why.
+        reason: String,
+    },
     /// A document that could not be encoded.
     #[error("{}: not saved: {reason}", path.display())]
     Encode {

@@ -41,7 +41,7 @@ mod weld;
 
 pub use error::{Fault, OpenError, SaveError, Warning};
 pub use format::Format;
-pub use mesh_file::{MeshFile, side_files};
+pub use mesh_file::{MeshFile, MorphShape, Morphs, side_files};
 pub use opening::{OpenOptions, from_bytes, open};
 pub use pack::Pack;
 pub use rigidity::read_rigidity;

@@ -1,5 +1,9 @@
 //! A mesh file as opened, and the ways in and out.
 
+mod morphs;
+
+pub use morphs::{MorphShape, Morphs};
+
 use crate::formats::{Before, Edit, Motion, Opened, Output, Source, entry};
 use crate::generated::Generated;
 use crate::pack::Original;

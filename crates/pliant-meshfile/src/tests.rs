@@ -7,6 +7,7 @@ mod gltf_beyond;
 mod gltf_reading;
 mod gltf_saving;
 mod lossless;
+mod morphs;
 mod mutation;
 mod obj_details;
 mod obj_reading;

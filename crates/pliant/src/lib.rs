@@ -4,6 +4,7 @@ pub mod cli;
 pub mod document;
 pub mod editor;
 pub mod learning;
+pub mod posing;
 pub mod project;
 pub mod solving;
 pub mod tools;

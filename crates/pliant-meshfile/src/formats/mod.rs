@@ -13,6 +13,7 @@ mod stl;
 mod turning;
 mod words;
 
+pub(crate) use gltf::with_morphs;
 pub(crate) use source::{Before, Bindings, Broken, Edit, Input, Motion, Opened, Output, Source};
 
 use crate::shape::Shape;

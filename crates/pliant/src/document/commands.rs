@@ -5,7 +5,9 @@ use pliant_solver::{LooseComponents, Rigidity, RigidityError, VertexId, Weights}
 
 use super::grouping::{add, hold, merge, remove};
 use super::sets::change_sets;
-use super::{ActiveGroups, Group, GroupColor, GroupId, GroupKind, Method, Scene, SelectMode, Selection, SetChange};
+use super::{
+    ActiveGroups, Group, GroupColor, GroupId, GroupKind, Method, PoseChange, Scene, SelectMode, Selection, SetChange,
+};
 
 /// A wish. Tools, menus, keys and scripts all speak this language.
 #[derive(Clone, Debug, PartialEq)]
@@ -84,6 +86,8 @@ pub enum Command {
     SetMethod(Method),
     /// Every group back to rest, and the surface with them.
     ResetPose,
+    /// Keeps, shows and arranges poses.
+    Poses(PoseChange),
 }
 
 /// Why a command was refused. The scene is as it was.
@@ -100,6 +104,9 @@ pub enum CommandError {
     /// The group does not exist (any more).
     #[error("handle group {0} does not exist any more")]
     NoSuchGroup(u32),
+    /// The kept pose does not exist (any more).
+    #[error("this pose does not exist any more")]
+    NoSuchPose,
     /// Nothing to hold.
     #[error("no vertex to hold: select some first")]
     NothingToHold,
@@ -181,6 +188,7 @@ impl Command {
             Command::SetLoose(_) => "Change loose parts",
             Command::SetMethod(_) => "Change method",
             Command::ResetPose => "Reset pose",
+            Command::Poses(change) => change.name(),
         }
     }
 }
@@ -195,11 +203,11 @@ pub(super) struct Surroundings<'a> {
     pub next_group: &'a mut u32,
 }
 
-/// The scene after `command`. Gesture commands do not reach this.
+/// The scene after `command`. Gesture commands and those of kept poses do not reach this.
 pub(super) fn changed(scene: &Scene, command: Command, around: Surroundings<'_>) -> Result<Scene, CommandError> {
     let mut next = scene.clone();
     match command {
-        Command::Begin(_) | Command::Commit | Command::Cancel => {}
+        Command::Begin(_) | Command::Commit | Command::Cancel | Command::Poses(_) => {}
         Command::Hold { kind, vertices } => {
             let held = some_of(vertices, around.rest.len())?;
             hold(&mut next, kind, &held, around);

@@ -172,6 +172,7 @@ mod tests {
             weights: Weights::default(),
             loose: LooseComponents::default(),
             method: crate::document::Method::default(),
+            poses: [].into(),
         };
         Snapshot { scene, pose: Pose { positions: vec![glam::DVec3::splat(x); 100].into() } }
     }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use pliant_solver::{LooseComponents, Rigidity, VertexId, Weights};
 
-use super::{ActiveGroups, Group, GroupId, Method, Model, Selection, SetId, StoredSet, sets};
+use super::{ActiveGroups, Group, GroupId, KeptPose, Method, Model, Selection, SetId, StoredSet, sets};
 
 /// Everything the user can change and undo. Cheap to clone: Arcs and small values.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,6 +27,8 @@ pub struct Scene {
     pub loose: LooseComponents,
     /// How the surface bends.
     pub method: Method,
+    /// Poses on the strip, in their order.
+    pub poses: Arc<[KeptPose]>,
 }
 
 impl Scene {
@@ -43,6 +45,7 @@ impl Scene {
             // Eyes and buttons are parts of their own in most files, and nobody wants them left behind.
             loose: LooseComponents::FollowNearest,
             method: Method::default(),
+            poses: Arc::new([]),
         }
     }
 
@@ -112,6 +115,6 @@ impl Scene {
         if !std::ptr::eq(self.locked.vertices(), other.locked.vertices()) {
             bytes += size_of_val(self.locked.vertices());
         }
-        bytes + sets::bytes_beyond(&self.sets, &other.sets)
+        bytes + sets::bytes_beyond(&self.sets, &other.sets) + self.pose_bytes_beyond(other)
     }
 }

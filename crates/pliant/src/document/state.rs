@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::commands::{Command, CommandError, Surroundings, changed};
-use super::{GroupId, History, Model, Scene, Snapshot};
+use super::{GroupId, History, Model, Scene, Snapshot, poses};
 
 /// World positions of all surface points at one moment. Cheap to clone.
 #[derive(Clone, Debug, PartialEq)]
@@ -140,11 +140,17 @@ impl Document {
         let is_step = !matches!(command, Command::Activate(_) | Command::ActivateSeveral(_));
         let resets = command == Command::ResetPose;
         let rest = self.model.mesh.positions();
-        let around = Surroundings { now: &self.pose.positions, rest, next_group: &mut self.next_group };
-        let next = changed(&self.scene, command, around)?;
+        let (next, shown) = match command {
+            Command::Poses(change) => poses::changed(&self.scene, change, &self.pose)?,
+            command => {
+                let around = Surroundings { now: &self.pose.positions, rest, next_group: &mut self.next_group };
+                (changed(&self.scene, command, around)?, None)
+            }
+        };
         // Positions that the solver is about to report may be bent although these are not.
         let moves_surface = resets && (next != self.scene || *self.pose.positions != *rest);
-        if next == self.scene && !moves_surface {
+        let shown = shown.filter(|pose| next != self.scene || *pose != self.pose);
+        if next == self.scene && !moves_surface && shown.is_none() {
             return Ok(());
         }
         if is_step && self.open_step.is_none() {
@@ -154,6 +160,9 @@ impl Document {
         self.scene = next;
         if moves_surface {
             self.jump_to(Pose { positions: self.model.mesh.positions().into() });
+        }
+        if let Some(pose) = shown {
+            self.jump_to(pose);
         }
         Ok(())
     }

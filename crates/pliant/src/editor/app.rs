@@ -10,6 +10,7 @@ use egui::{CentralPanel, Frame, Margin, Panel};
 use super::compare_view::CompareView;
 use super::keyboard::Keyboard;
 use super::panels::{self, Dialog, Loss};
+use super::strip::{self, StripView};
 use super::viewport_panel::ViewportPanel;
 use super::{Job, NoticeKind, Opened, Sample, Session, theme};
 
@@ -32,6 +33,7 @@ pub struct EditorApp {
     session: Session,
     viewport: ViewportPanel,
     compare: CompareView,
+    strip: StripView,
     dialog: Dialog,
     keyboard: Keyboard,
     title: String,
@@ -87,6 +89,7 @@ impl EditorApp {
             session,
             viewport: ViewportPanel::new(render_state),
             compare: CompareView::default(),
+            strip: StripView::default(),
             dialog: Dialog::None,
             keyboard: Keyboard::default(),
             title: String::new(),
@@ -105,6 +108,10 @@ impl EditorApp {
     /// What the last frame cost.
     pub fn last_frame_work(&self) -> FrameWork {
         self.last_frame
+    }
+
+    pub(super) fn ask_how_to_export_poses(&mut self, _ctx: &egui::Context) {
+        self.strip.begin_export(&self.session);
     }
 
     pub(super) fn show_keys(&mut self, _ctx: &egui::Context) {
@@ -137,7 +144,7 @@ impl eframe::App for EditorApp {
         let begun = Instant::now();
         let ctx = ui.ctx().clone();
         let mut chosen = Vec::new();
-        let is_asking = self.compare.is_asking() || !self.session.recovery.is_empty();
+        let is_asking = self.compare.is_asking() || self.strip.is_asking() || !self.session.recovery.is_empty();
         if self.dialog == Dialog::None && !is_asking {
             chosen.extend(self.keyboard.take(&ctx, &mut self.session, self.viewport.id));
         }
@@ -155,6 +162,15 @@ impl eframe::App for EditorApp {
         Panel::right("inspector").frame(wide).default_size(288.0).size_range(240.0..=420.0).show(ui, |ui| {
             chosen.extend(panels::inspector(ui, &mut self.session));
         });
+        if self.session.advance_play(f64::from(ctx.input(|input| input.stable_dt))) {
+            ctx.request_repaint();
+        }
+        self.strip.ask(&ctx, &mut self.session, &self.viewport);
+        if self.session.strip_is_open() {
+            Panel::bottom("poses").frame(bar).exact_size(strip::HEIGHT).resizable(false).show(ui, |ui| {
+                chosen.extend(self.strip.show(ui, &mut self.session, &self.viewport));
+            });
+        }
         CentralPanel::no_frame().show(ui, |ui| {
             let around = self.compare.show(ui, &mut self.viewport, &mut self.session);
             panels::inspect(ui, around.picture, &mut self.session);

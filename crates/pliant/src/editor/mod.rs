@@ -26,6 +26,7 @@ mod search;
 mod session;
 mod shortcuts;
 mod status;
+mod strip;
 mod theme;
 mod viewport_panel;
 mod welcome;

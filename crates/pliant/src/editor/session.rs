@@ -2,11 +2,14 @@
 //! does goes through here, and so can a test.
 
 mod compare;
+mod exporting;
 mod handles;
 mod hints;
 mod inspect;
 mod method;
 mod paint;
+mod playing;
+mod poses;
 mod project;
 mod selection;
 mod views;
@@ -55,6 +58,10 @@ pub struct Session {
     /// Methods side by side, while that is open.
     compare: Option<super::Compare>,
     typed_placement: handles::Typed,
+    /// The strip of kept poses.
+    strip: poses::Strip,
+    playing: playing::Playing,
+    exporting: Option<exporting::Exporting>,
     wake: Arc<dyn Fn() + Send + Sync>,
     viewport_size: Vec2,
     worker: Worker,
@@ -101,6 +108,9 @@ impl Session {
             learning: None,
             compare: None,
             typed_placement: None,
+            strip: poses::Strip::default(),
+            playing: playing::Playing::default(),
+            exporting: None,
             wake: wake.clone(),
             viewport_size: Vec2::new(800.0, 600.0),
             worker: Worker::start(move || wake_worker())?,
@@ -187,6 +197,7 @@ impl Session {
         self.sent = None;
         self.open = Some(Open::new(opened, sample));
         self.arrived(origin);
+        self.fit_strip();
         self.synchronize();
     }
 
@@ -200,6 +211,8 @@ impl Session {
             learning.poll();
         }
         self.poll_compare();
+        self.poll_exporting();
+        self.check_play();
         self.tick(Instant::now());
         self.look_for_crossings();
         self.measure();
@@ -309,6 +322,7 @@ impl Session {
 
     /// Sends the newest wish to the solver and shows a pose that jumped.
     fn synchronize(&mut self) {
+        self.check_play();
         let energies = self.wants_energies();
         let Some(open) = &mut self.open else { return };
         open.catch_up();
@@ -354,6 +368,13 @@ impl Session {
 
     /// Passes input to the tool in hand and carries out what it wants.
     pub fn input(&mut self, input: Input) {
+        if self.player().is_some() {
+            // What is under the pointer is not what tools would work on: a press ends the play and does nothing else.
+            if matches!(input, Input::Press(_)) {
+                self.stop_playing();
+            }
+            return;
+        }
         self.prepare();
         let Some(open) = &mut self.open else { return };
         let view = View { camera: open.camera, size: self.viewport_size };

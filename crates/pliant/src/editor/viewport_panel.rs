@@ -345,7 +345,8 @@ impl ViewportPanel {
     /// A processor draws one sample a pixel while things move, and smooth edges once they have rested for a moment.
     fn samples_now(&mut self, ui: &egui::Ui, session: &Session) -> u32 {
         let report = session.status.report.as_ref();
-        let is_iterating = report.is_some_and(|report| report.state == SolveState::Iterating);
+        let is_iterating = report.is_some_and(|report| report.state == SolveState::Iterating)
+            || session.player().is_some_and(crate::posing::Player::is_playing);
         let is_used = ui.input(|input| !input.events.is_empty() || input.pointer.any_down());
         if self.gesture.is_some() || is_iterating || is_used {
             self.moved_at = std::time::Instant::now();
@@ -366,14 +367,16 @@ impl ViewportPanel {
         let flaws = session.crossing_faces();
         // Handles and what a tool draws belong to the pose.
         let shows_rest = session.shows_rest();
-        let marks = if shows_rest { Default::default() } else { marks };
+        let played = session.played().filter(|_| !shows_rest);
+        let is_own = !shows_rest && played.is_none();
+        let marks = if is_own { marks } else { Default::default() };
         let open = session.open()?;
         let (scene, model) = (open.document.scene(), open.document.model());
-        let frame = session.shown_frame()?.clone();
-        let mut dots = if look.handles && !shows_rest { group_dots(session, &mut self.cache.rims) } else { Vec::new() };
+        let mut dots = if look.handles && is_own { group_dots(session, &mut self.cache.rims) } else { Vec::new() };
         dots.extend(marks.dots);
         keep(&mut self.cache.dots, dots);
         keep(&mut self.cache.lines, marks.lines);
+        let frame = played.or_else(|| session.shown_frame().cloned())?;
         let rigidity = session.shown_rigidity().unwrap_or(&scene.rigidity);
         Some(ViewScene {
             triangles: model.triangles.clone(),
@@ -397,7 +400,7 @@ impl ViewportPanel {
             grid: look.grid,
             theme: look.theme,
             camera: open.camera,
-            bounds: self.cache.bounds(&frame, || if shows_rest { model.bounds } else { open.bounds() }),
+            bounds: self.cache.bounds(&frame),
             frame,
             pixels_per_point,
         })
@@ -416,11 +419,12 @@ impl Cache {
         }
     }
 
-    fn bounds(&mut self, frame: &Arc<SurfaceFrame>, compute: impl FnOnce() -> (Vec3, Vec3)) -> (Vec3, Vec3) {
+    fn bounds(&mut self, frame: &Arc<SurfaceFrame>) -> (Vec3, Vec3) {
         match &self.bounds {
             Some((known, bounds)) if Arc::ptr_eq(known, frame) => *bounds,
             _ => {
-                let bounds = compute();
+                let points = frame.positions.iter().map(|&p| (p, p));
+                let bounds = points.reduce(|(lo, hi), (p, _)| (lo.min(p), hi.max(p))).unwrap_or_default();
                 self.bounds = Some((frame.clone(), bounds));
                 bounds
             }

@@ -24,6 +24,7 @@ mod container;
 mod error;
 mod file;
 mod mesh;
+mod poses;
 mod record;
 mod scene;
 #[cfg(test)]

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::container::{Block, Reader, Writer};
 use super::error::Flaw;
+use super::poses::{self, PoseRecord};
 use super::record::{self, LooseRecord, MethodRecord, WeightsRecord};
 use crate::document::{ActiveGroups, Group, GroupColor, GroupId, GroupKind, Scene, Selection, SetId, StoredSet};
 
@@ -18,11 +19,8 @@ const NAME_BYTES: usize = 1 << 10;
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct SceneRecord {
     rigidity: Block,
-    groups: Vec<GroupRecord>,
-    /// Held vertices of all groups.
-    held: Block,
-    /// Their base positions.
-    bases: Block,
+    #[serde(flatten)]
+    groups: GroupsRecord,
     #[serde(default)]
     selection: Option<Block>,
     #[serde(default)]
@@ -41,6 +39,18 @@ pub(super) struct SceneRecord {
     loose: LooseRecord,
     #[serde(default)]
     method: Option<MethodRecord>,
+    #[serde(default)]
+    poses: Vec<PoseRecord>,
+}
+
+/// Handles and anchors. Lists of all groups lie one after the other.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct GroupsRecord {
+    groups: Vec<GroupRecord>,
+    /// Held vertices of all groups.
+    held: Block,
+    /// Their base positions.
+    bases: Block,
 }
 
 #[derive(Debug, Serialize, Deserialize)]
@@ -74,13 +84,10 @@ enum KindRecord {
 
 impl SceneRecord {
     pub(super) fn put(writer: &mut Writer, scene: &Scene) -> SceneRecord {
-        let groups = &scene.groups;
         let (selection, locked) = (scene.selection.vertices(), scene.locked.vertices());
         SceneRecord {
             rigidity: record::put_rigidity(writer, scene.rigidity.as_slice()),
-            groups: groups.iter().map(GroupRecord::of).collect(),
-            held: record::put_vertices(writer, groups.iter().flat_map(|group| group.vertices.iter().copied())),
-            bases: record::put_points(writer, groups.iter().flat_map(|group| group.base.iter().copied())),
+            groups: GroupsRecord::put(writer, &scene.groups),
             selection: (!selection.is_empty()).then(|| record::put_vertices(writer, selection.iter().copied())),
             locked: (!locked.is_empty()).then(|| record::put_vertices(writer, locked.iter().copied())),
             sets: scene.sets.iter().map(SetRecord::of).collect(),
@@ -92,6 +99,7 @@ impl SceneRecord {
             weights: scene.weights.into(),
             loose: scene.loose.into(),
             method: Some(MethodRecord::of(&scene.method)),
+            poses: scene.poses.iter().map(|kept| PoseRecord::put(writer, kept)).collect(),
         }
     }
 
@@ -102,7 +110,7 @@ impl SceneRecord {
             return Err(Flaw(format!("rigidity for {} vertices, the surface has {n_points}", r.len())));
         }
         let rigidity = Rigidity::new(r).map_err(|error| Flaw(error.to_string()))?;
-        let groups = self.groups(reader, n_points)?;
+        let groups = self.groups.groups(reader, n_points)?;
         let sets = self.sets(reader, n_points)?;
         let set = |block: Option<Block>, what: &str| match block {
             Some(block) => Ok(Selection::new(record::vertices(reader, block, n_points, what)?)),
@@ -118,6 +126,7 @@ impl SceneRecord {
         if let Some(method) = self.method {
             scene.method = method.method()?;
         }
+        scene.poses = poses::poses(self.poses, reader, n_points)?.into();
         Ok(scene)
     }
 
@@ -140,8 +149,18 @@ impl SceneRecord {
         }
         if rest.is_empty() { Ok(sets) } else { Err(Flaw::new("vertices are left over that are in no stored set")) }
     }
+}
 
-    fn groups(&self, reader: &Reader, n_points: usize) -> Result<Vec<Group>, Flaw> {
+impl GroupsRecord {
+    pub(super) fn put(writer: &mut Writer, groups: &[Group]) -> GroupsRecord {
+        GroupsRecord {
+            groups: groups.iter().map(GroupRecord::of).collect(),
+            held: record::put_vertices(writer, groups.iter().flat_map(|group| group.vertices.iter().copied())),
+            bases: record::put_points(writer, groups.iter().flat_map(|group| group.base.iter().copied())),
+        }
+    }
+
+    pub(super) fn groups(&self, reader: &Reader, n_points: usize) -> Result<Vec<Group>, Flaw> {
         let held = record::vertices(reader, self.held, n_points, "held vertices")?;
         let bases = record::points(reader, self.bases, "base positions of held vertices")?;
         let counted: u64 = self.groups.iter().map(|group| u64::from(group.count)).sum();
@@ -181,7 +200,7 @@ impl SetRecord {
 }
 
 /// A name of bearable length.
-fn cut(name: &str) -> String {
+pub(super) fn cut(name: &str) -> String {
     name[..name.floor_char_boundary(NAME_BYTES)].to_owned()
 }
 
@@ -222,9 +241,10 @@ impl GroupRecord {
     }
 }
 
-/// The smallest number that no group of the scene has.
+/// The smallest number that no group of the scene or its poses has.
 pub(super) fn next_group(scene: &Scene, stated: u32) -> Result<u32, Flaw> {
-    let largest = scene.groups.iter().map(|group| group.id.0).max().unwrap_or(0);
+    let kept = scene.poses.iter().flat_map(|kept| kept.groups.iter());
+    let largest = scene.groups.iter().chain(kept).map(|group| group.id.0).max().unwrap_or(0);
     let next = largest.checked_add(1).ok_or_else(|| Flaw::new("no number is left for a further handle"))?;
     // A project that states a number near the end would leave none.
     Ok(next.max(if stated < u32::MAX / 2 { stated } else { 1 }))

@@ -9,6 +9,7 @@ mod inspecting;
 mod learning;
 mod monkey;
 mod painting;
+mod poses;
 mod projects;
 mod regions;
 mod selecting;

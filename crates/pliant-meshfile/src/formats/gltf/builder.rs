@@ -30,14 +30,22 @@ impl Builder {
         Builder { n_accessors: n("accessors"), n_views: n("bufferViews"), buffer, start, ..Builder::default() }
     }
 
-    fn push(&mut self, bytes: &[u8], target: u32, stride: Option<u32>, mut accessor: Value) -> usize {
+    fn push(
+        &mut self,
+        bytes: &[u8],
+        target: impl Into<Option<u32>>,
+        stride: Option<u32>,
+        mut accessor: Value,
+    ) -> usize {
         self.data.resize(self.data.len().next_multiple_of(4), 0);
         let offset = self.start + self.data.len();
         let mut view = json!({"buffer": self.buffer, "byteOffset": offset, "byteLength": bytes.len()});
         if let Some(stride) = stride {
             view["byteStride"] = stride.into();
         }
-        view["target"] = target.into();
+        if let Some(target) = target.into() {
+            view["target"] = target.into();
+        }
         accessor["bufferView"] = (self.n_views + self.views.len()).into();
         self.views.push(view);
         self.data.extend_from_slice(bytes);
@@ -59,6 +67,22 @@ impl Builder {
         }
         let bytes: Vec<u8> = numbers.iter().flat_map(|x| x.to_le_bytes()).collect();
         self.push(&bytes, ATTRIBUTES, None, accessor)
+    }
+
+    /// Numbers of animations, which no vertex attribute reads, with the least and largest where `bounds` are wanted.
+    pub(super) fn keys(&mut self, numbers: &[f32], bounds: bool) -> usize {
+        let mut accessor = json!({"componentType": 5126, "count": numbers.len(), "type": "SCALAR"});
+        if bounds {
+            let of = |pick: fn(f32, f32) -> f32| f64::from(numbers.iter().copied().reduce(pick).unwrap_or(0.0));
+            (accessor["min"], accessor["max"]) = (json!([of(f32::min)]), json!([of(f32::max)]));
+        }
+        let bytes: Vec<u8> = numbers.iter().flat_map(|x| x.to_le_bytes()).collect();
+        self.push(&bytes, None, None, accessor)
+    }
+
+    /// So many vectors of three zeros. They are written out: not every program reads accessors without data.
+    pub(super) fn zeros(&mut self, count: usize) -> usize {
+        self.floats(&vec![0.0; 3 * count], 3, true)
     }
 
     /// Sixteen-bit numbers four bytes apart: vertex attributes begin at multiples of four.
@@ -94,10 +118,10 @@ impl Builder {
 
     /// Appends everything to the document, and to the binary chunk it was begun after.
     pub(super) fn attach(self, document: &mut Value, chunk: Option<&mut Vec<u8>>) {
+        extend(document, "accessors", self.accessors);
         if self.data.is_empty() {
             return;
         }
-        extend(document, "accessors", self.accessors);
         extend(document, "bufferViews", self.views);
         match chunk {
             Some(chunk) => {
@@ -121,6 +145,9 @@ impl Builder {
 
 /// Appends to a list of the document, which appears if it was not there.
 fn extend(document: &mut Value, key: &str, items: Vec<Value>) {
+    if items.is_empty() {
+        return;
+    }
     match document.get_mut(key).and_then(Value::as_array_mut) {
         Some(list) => list.extend(items),
         None => document[key] = items.into(),

@@ -18,6 +18,7 @@ mod container;
 mod export;
 mod json;
 mod leave_draco;
+mod morphs;
 mod motion;
 mod nodes;
 mod patch;
@@ -29,6 +30,7 @@ mod source;
 mod textures;
 
 pub(super) use export::write;
+pub(crate) use morphs::with_morphs;
 pub(super) use read::read;
 
 use super::source::{Before, Bindings, Edit, Motion, Output, Source};

@@ -7,6 +7,7 @@ use super::access::{Accessor, Component, Data};
 use super::compressed::Decoded;
 use super::source::{Block, GltfSource, Primitive};
 use super::{buffers, container, json, nodes};
+use crate::folder::Folder;
 use crate::shape::{NO_MATERIAL, Part};
 use crate::watch::Stage;
 use crate::{Fault, Warning, budget, rigidity};
@@ -14,6 +15,7 @@ use attributes::{Attribute, finite};
 use glam::{DMat3, DMat4, DVec3, Vec2};
 use serde_json::Value;
 use std::collections::{HashMap, HashSet};
+use std::path::Path;
 use std::sync::Arc;
 
 /// Vertices or triangles between two looks at whether the file is still wanted: some milliseconds.
@@ -21,6 +23,17 @@ const PIECE: usize = 1 << 16;
 
 /// Reads a glTF or GLB file.
 pub(crate) fn read(input: Input<'_>) -> Result<Opened, Fault> {
+    read_both(input).map(|(opened, _)| opened)
+}
+
+/// A file that was just written, as it came.
+pub(super) fn source_of(bytes: Vec<u8>, folder: &Path) -> Result<Arc<GltfSource>, Fault> {
+    let folder = Folder::on_disk(folder, false);
+    let input = Input { bytes, folder: Some(&folder), unfinished: None, name: "", stage: Stage::unwatched() };
+    read_both(input).map(|(_, source)| source)
+}
+
+fn read_both(input: Input<'_>) -> Result<(Opened, Arc<GltfSource>), Fault> {
     let container = container::parse(input.bytes)?;
     let document = parse_document(&container.json)?;
     let buffers = buffers::load(&document, &container, input.folder)?;
@@ -37,9 +50,9 @@ pub(crate) fn read(input: Input<'_>) -> Result<Opened, Fault> {
     let Reader { blocks, primitives, positions, triangles, rigidity, uvs, colors, parts, .. } = reader;
     let n = positions.len();
     warnings.extend(reader.warnings);
-    let source =
-        GltfSource { blocks, primitives, folder: input.folder.cloned(), container, document, buffers, decoded };
-    Ok(Opened {
+    let folder = input.folder.cloned();
+    let source = Arc::new(GltfSource { blocks, primitives, folder, container, document, buffers, decoded });
+    let opened = Opened {
         positions,
         triangles,
         rigidity: filled(rigidity, n, 1),
@@ -47,8 +60,9 @@ pub(crate) fn read(input: Input<'_>) -> Result<Opened, Fault> {
         colors: filled(colors, n, [1.0; 4]),
         parts,
         warnings,
-        source: Arc::new(source),
-    })
+        source: source.clone(),
+    };
+    Ok((opened, source))
 }
 
 /// An attribute of some vertices, completed for all; `None` when no vertex has it.

@@ -66,7 +66,7 @@ pub(super) fn rewrite(source: &GltfSource, edit: &Edit<'_>, to: &Path, format: F
     pack(source, json, place.chunk, glb, to, place.warnings)
 }
 
-fn pack(
+pub(super) fn pack(
     source: &GltfSource,
     json: Vec<u8>,
     chunk: Option<Vec<u8>>,

@@ -61,7 +61,7 @@ fn tip(ui: &Ui, session: &Session, action: Action) -> String {
 }
 
 /// A button for an action: label, tooltip with its key, and the reason when it cannot be done now.
-fn action_button(ui: &mut Ui, session: &Session, action: Action) -> Response {
+pub(super) fn action_button(ui: &mut Ui, session: &Session, action: Action) -> Response {
     let obstacle = action.obstacle(session);
     let response = ui.add_enabled(obstacle.is_none(), egui::Button::new(action.label()));
     response.on_hover_text(tip(ui, session, action)).on_disabled_hover_text(obstacle.unwrap_or_default())

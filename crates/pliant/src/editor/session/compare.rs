@@ -29,6 +29,7 @@ impl Session {
         if self.open.is_none() || self.compare.is_some() {
             return;
         }
+        self.stop_playing();
         let uniform = if self.options.rigidity > 1 { self.options.rigidity } else { OTHER_RIGIDITY };
         let ground = self.status.report.as_ref().and_then(|report| report.ground.upgrade());
         let wake = self.wake.clone();
@@ -79,7 +80,9 @@ impl Session {
     /// Esc: what the tool or a number in the inspector has under way is taken back, or the comparison is closed.
     pub fn escape(&mut self) {
         let in_step = self.document().is_some_and(|document| document.in_step());
-        if in_step && !self.tool.is_active() {
+        if self.player().is_some() {
+            self.stop_playing();
+        } else if in_step && !self.tool.is_active() {
             self.apply(Command::Cancel);
         } else if self.compare.is_some() && !self.tool.is_active() {
             self.close_compare();

@@ -52,7 +52,8 @@ impl Session {
 
     /// The faces to point out: those that cross others, in the pose on screen.
     pub fn crossing_faces(&self) -> Option<Arc<[[u32; 3]]>> {
-        let document = self.document().filter(|_| self.look.crossings && !self.shows_rest)?;
+        let document =
+            self.document().filter(|_| self.look.crossings && !self.shows_rest && self.player().is_none())?;
         self.crossings.faces(document.pose())
     }
 
