@@ -10,9 +10,10 @@ use crate::assets;
 use crate::failure::Failure;
 use glam::DVec3;
 use oracle::Report;
-use pliant_meshfile::{Format, MeshFile};
+use pliant_meshfile::{Format, MeshFile, MorphShape, Morphs, SaveError};
 use serde_json::Value;
 use std::fs;
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 /// A saved file and what it was made of; none where a document was made anew.
@@ -110,7 +111,26 @@ fn saved(mesh: &MeshFile, file: &Path, stem: &Path) -> Result<Vec<Pair>, Failure
         }
         pairs.push(Pair { before: before.clone(), after });
     }
+    for ending in [".poses.glb", ".poses.gltf"] {
+        let after = name(ending);
+        if with_poses(mesh, &points, &after)? {
+            pairs.push(Pair { before: before.clone(), after });
+        }
+    }
     Ok(pairs)
+}
+
+/// Saves a mesh with two shapes and an animation of them; whether it can hold them.
+fn with_poses(mesh: &MeshFile, points: &[DVec3], after: &Path) -> Result<bool, Failure> {
+    let half: Vec<DVec3> = mesh.points().iter().zip(points).map(|(a, b)| a.lerp(*b, 0.5)).collect();
+    let shapes = [MorphShape { name: "Half", points: &half }, MorphShape { name: "Bent", points }];
+    let keys = [(0.0, None), (0.5, Some(0)), (1.0, Some(1))];
+    let morphs = Morphs { shapes: &shapes, animation: "Poses", keys: &keys, stepped: false };
+    match mesh.save_morphs(after, None, &morphs, &mut |_| ControlFlow::Continue(())) {
+        Ok(_) => Ok(true),
+        Err(SaveError::NoMorphs { .. }) => Ok(false),
+        Err(error) => Err(Failure::Save(error)),
+    }
 }
 
 /// Whether a file saved untouched is the one it came from; text in another folder takes the files beside it along.

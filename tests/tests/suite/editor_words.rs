@@ -64,14 +64,14 @@ fn a_key_changed_on_the_sheet_works_at_once_and_a_taken_one_is_asked_about() {
     window.run_steps(2);
     window.get_by_label("Keys of Wireframe: W").click();
     window.run_steps(2);
-    press(&mut window, Key::K);
+    press(&mut window, Key::F9);
     window.run_steps(2);
     press(&mut window, Key::Escape);
     window.run_steps(2);
     let had = window.state_mut().session().look.wireframe;
     press(&mut window, Key::W);
     assert_eq!(window.state_mut().session().look.wireframe, had, "the old key still works");
-    press(&mut window, Key::K);
+    press(&mut window, Key::F9);
     assert_eq!(window.state_mut().session().look.wireframe, !had, "the new key does nothing");
 }
 

@@ -3,6 +3,7 @@
 mod agreement;
 mod commands;
 mod editor;
+mod editor_access;
 mod editor_comparing;
 mod editor_window;
 mod editor_words;

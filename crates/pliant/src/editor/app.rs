@@ -194,6 +194,10 @@ impl eframe::App for EditorApp {
         {
             self.lose(Loss::Recover(file), &ctx);
         }
+        // What was made early in this frame shows in the next what a click or a key did later in it.
+        if ctx.input(|input| input.events.iter().any(|event| !matches!(event, egui::Event::PointerMoved(_)))) {
+            ctx.request_repaint();
+        }
         self.last_frame = FrameWork { ui: begun.elapsed(), drawing: self.viewport.drawing };
     }
 

@@ -162,10 +162,6 @@ impl ViewportPanel {
         let (events, scroll, pinch) =
             ui.input(|input| (input.events.clone(), input.smooth_scroll_delta().y, input.zoom_delta()));
         for event in events {
-            if matches!(event, Event::PointerButton { .. }) && (is_over || self.gesture.is_some()) {
-                // The panels beside the picture are made before it: they show in the next frame what a click did.
-                ui.ctx().request_repaint();
-            }
             match event {
                 Event::PointerButton { pos, button, pressed: true, modifiers } if is_over => {
                     self.press(pos, button, modifiers, rect, session);
