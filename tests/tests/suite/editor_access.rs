@@ -44,9 +44,25 @@ fn faults(window: &Window, place: &str) -> Vec<String> {
     found
 }
 
-/// Headings that fold and menus: what is in them explains itself.
-const EXPLAINED: [&str; 12] =
-    ["File", "Edit", "Select", "Rigidity", "Pose", "View", "Help", "Handles", "Solver", "Mesh", "Sets", "History"];
+/// Headings that fold and menus: what is in them explains itself. *Hide* and *Close window* stand in the title of every
+/// floating panel.
+const EXPLAINED: [&str; 15] = [
+    "File",
+    "Edit",
+    "Select",
+    "Handle",
+    "Rigidity",
+    "Pose",
+    "View",
+    "Help",
+    "Handles",
+    "Solver",
+    "Mesh",
+    "Sets",
+    "History",
+    "Hide",
+    "Close window",
+];
 
 fn do_by_palette(window: &mut Window, words: &str) {
     let ctrl_shift = Modifiers { shift: true, ..Modifiers::COMMAND };

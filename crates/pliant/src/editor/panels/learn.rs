@@ -137,6 +137,7 @@ fn choosing(ui: &mut Ui, learning: &mut Learning) -> Option<Wanted> {
     at_right(ui, |ui| {
         let can = !learning.sources().is_empty();
         let button = ui.add_enabled(can, Button::new(RichText::new("Learn").strong()));
+        let button = button.on_hover_text("Find out from these poses where the mesh is stiff");
         if button.on_disabled_hover_text("Add poses first").clicked() {
             wanted = Some(Wanted::Learn);
         }
