@@ -37,6 +37,8 @@ fn scrub(ui: &mut Ui, session: &mut Session) {
     let last = session.poses().len().saturating_sub(1).max(1) as f64;
     // Counted from 1, as poses are.
     let mut place = session.player().map_or(0.0, Player::position) + 1.0;
+    // Narrower than usual, so that the row fits into a window of common size.
+    ui.spacing_mut().slider_width = 90.0;
     let slider = Slider::new(&mut place, 1.0..=1.0 + last).show_value(false).text("");
     let response = ui.add_enabled(obstacle.is_none(), slider);
     response.widget_info(|| egui::WidgetInfo::slider(obstacle.is_none(), place, "Place between poses"));
