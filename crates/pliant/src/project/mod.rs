@@ -6,18 +6,18 @@
 //! block 1…: lists of numbers, and the mesh file with all it refers to
 //! ```
 //!
-//! Every block carries its length and a checksum over both ([`container`]), so that a file that was cut or damaged anywhere
+//! Every block carries its length and a checksum over both (`container.rs`), so that a file that was cut or damaged anywhere
 //! is told from a whole one. Numbers are little endian, positions in double precision: a project opens to the last bit as it
 //! was left.
 //!
-//! **The mesh** is packed as the bytes that were opened, or linked by a relative path with length and checksum ([`mesh`]). A
+//! **The mesh** is packed as the bytes that were opened, or linked by a relative path with length and checksum (`mesh.rs`). A
 //! link that leads to another file, or to none, is an error that says so; the caller may then name the mesh.
 //!
 //! **Growing.** What a project holds further is an optional field of a record here: older files open without it, and older
 //! programs skip it. Only what older programs would get wrong raises the version.
 //!
 //! **Trust.** A project is a file like any other: it may be broken or hostile. Lengths are compared with what is there before
-//! memory is reserved, every index and number is checked ([`scene`]), and of the disk only a file inside the project's reach
+//! memory is reserved, every index and number is checked (`scene.rs`), and of the disk only a file inside the project's reach
 //! is read that has the length and checksum the project states.
 
 mod container;

@@ -53,8 +53,18 @@ impl StripView {
     /// Fills `ui` with the strip; returns the actions that were chosen.
     pub(super) fn show(&mut self, ui: &mut Ui, session: &mut Session, viewport: &ViewportPanel) -> Vec<Action> {
         let mut chosen = Vec::new();
-        ScrollArea::horizontal().id_salt("pose buttons").auto_shrink([false, true]).show(ui, |ui| {
-            ui.horizontal(|ui| self.buttons(ui, session, &mut chosen));
+        ui.horizontal(|ui| {
+            // *Hide* stays in sight, however narrow the window.
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                let hide = ui.button("Hide").on_hover_text("Hide the strip; the poses stay (Pose › Strip of poses)");
+                if hide.clicked() {
+                    session.toggle_strip();
+                }
+                ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                    let row = ScrollArea::horizontal().id_salt("pose buttons").auto_shrink([false, true]);
+                    row.show(ui, |ui| ui.horizontal(|ui| self.buttons(ui, session, &mut chosen)));
+                });
+            });
         });
         self.thumbnails.poll(ui.ctx(), session.poses());
         ScrollArea::horizontal().id_salt("poses").auto_shrink([false, false]).show(ui, |ui| {
@@ -82,12 +92,6 @@ impl StripView {
         playing::controls(ui, session, chosen);
         ui.separator();
         export_or_progress(ui, session, chosen);
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let close = ui.button("Hide").on_hover_text("Hide the strip; the poses stay (Pose › Strip of poses)");
-            if close.clicked() {
-                session.toggle_strip();
-            }
-        });
     }
 
     fn cards(&mut self, ui: &mut Ui, session: &mut Session, viewport: &ViewportPanel) {
