@@ -15,7 +15,7 @@ use super::affine::{Affine, add_outer, linear, times};
 /// Weight of E_rot: only ratios count.
 pub(super) const ROTATION: f64 = 1.0;
 
-/// Weights of the other energies beside that of [E_rot](self), 1.
+/// Weights of the other energies beside that of E_rot (rotations), 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EnergyWeights {
     /// Of E_reg: how much linked nodes should agree.
