@@ -79,7 +79,7 @@ impl StripView {
                 chosen.push(action);
             }
         }
-        for (label, action) in [("◀", Action::POSE_EARLIER), ("▶", Action::POSE_LATER)] {
+        for (label, action) in [("<", Action::POSE_EARLIER), (">", Action::POSE_LATER)] {
             let obstacle = action.obstacle(session);
             let button = ui.add_enabled(obstacle.is_none(), Button::new(label));
             button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, action.label()));
