@@ -1,6 +1,7 @@
 //! The whole window on the software adapter: real events in, state and pixels out.
 
 mod handles;
+mod marks;
 mod projects;
 
 use std::time::{Duration, Instant};
