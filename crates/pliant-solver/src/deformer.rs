@@ -35,6 +35,10 @@ pub trait Deformer: Send {
     /// The first half of an iteration. Embedded deformation has no halves: this is all of it.
     fn global_step(&mut self);
 
+    /// Whether the first half of the next iteration takes the surface where the whole iteration will: the second half
+    /// shortens no step that is plain, as those after a change are.
+    fn is_next_plain(&self) -> bool;
+
     /// The second half, and what the iteration achieved.
     fn local_step(&mut self) -> StepReport;
 
@@ -165,16 +169,28 @@ deformer!(Solver {
         self.step_while(is_wanted)
     }
 
+    fn is_next_plain(&self) -> bool {
+        self.is_next_plain()
+    }
+
     fn vertex_energies(&self) -> Option<Vec<f64>> {
         Some(self.vertex_energies())
     }
 });
 deformer!(SrArap {
+    fn is_next_plain(&self) -> bool {
+        self.is_next_plain()
+    }
+
     fn vertex_energies(&self) -> Option<Vec<f64>> {
         Some(self.vertex_energies())
     }
 });
 deformer!(Embedded {
+    fn is_next_plain(&self) -> bool {
+        true
+    }
+
     fn vertex_energies(&self) -> Option<Vec<f64>> {
         None
     }

@@ -269,6 +269,11 @@ impl Solver {
         on_pool(self.pose.positions.len(), || self.move_all(&mut || true));
     }
 
+    /// Whether the next global step is a plain one, whatever the minimizer, so that the local step leaves its positions alone.
+    pub fn is_next_plain(&self) -> bool {
+        self.lbfgs.as_ref().is_none_or(|lbfgs| lbfgs.basis(self.comparable).is_none())
+    }
+
     /// Whether it came to that.
     fn move_all(&mut self, is_wanted: &mut dyn FnMut() -> bool) -> bool {
         let layout = &self.analysis.layout;
@@ -294,7 +299,7 @@ impl Solver {
         }
         let mut lbfgs = self.lbfgs.as_mut();
         if let Some(lbfgs) = &mut lbfgs {
-            if let Some(energy) = self.comparable.filter(|&energy| energy != 0.0 && !lbfgs.is_waiting()) {
+            if let Some(energy) = lbfgs.basis(self.comparable) {
                 lbfgs.take_gradient(&workspace.rhs);
                 system.solve_in_place(&mut workspace.rhs);
                 if is_wanted() {

@@ -119,8 +119,14 @@ impl Lbfgs {
         self.trial = None;
     }
 
+    /// The energy that the next step can be judged by. None if it must be plain: E at the current pose is not known, or
+    /// nothing is left of it.
+    pub(crate) fn basis(&self, comparable: Option<f64>) -> Option<f64> {
+        comparable.filter(|&energy| energy != 0.0 && !self.is_waiting())
+    }
+
     /// Whether a step was proposed whose energy is not known yet.
-    pub(crate) fn is_waiting(&self) -> bool {
+    fn is_waiting(&self) -> bool {
         self.trial.is_some()
     }
 

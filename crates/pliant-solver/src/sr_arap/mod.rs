@@ -232,7 +232,7 @@ impl SrArap {
         self.iteration += 1;
         Field { layout: &analysis.layout, constants, positions }.pulls(turns, &held.is_fixed, rhs);
         if let Some(lbfgs) = &mut self.lbfgs {
-            if let Some(energy) = self.comparable.filter(|&energy| energy != 0.0 && !lbfgs.is_waiting()) {
+            if let Some(energy) = lbfgs.basis(self.comparable) {
                 lbfgs.take_gradient(rhs);
                 system.solve_in_place(rhs);
                 lbfgs.propose(rhs, energy, positions);
@@ -246,6 +246,11 @@ impl SrArap {
             let free = (first..).zip(positions).filter(|(i, _)| !is_fixed[*i]);
             free.for_each(|(i, p)| *p += rhs[i].xyz());
         });
+    }
+
+    /// Whether the next global step is a plain one, whatever the minimizer, so that the local step leaves its positions alone.
+    pub fn is_next_plain(&self) -> bool {
+        self.lbfgs.as_ref().is_none_or(|lbfgs| lbfgs.basis(self.comparable).is_none())
     }
 
     /// Better rotations for these positions, and E.

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use glam::DVec3;
-use pliant_solver::VertexId;
+use pliant_solver::{StepReport, VertexId};
 
 use super::bent::{Bent, KeptGraph};
 use super::figures::Figures;
@@ -18,6 +18,18 @@ use super::{Groundwork, Measure, Measured, SolveReport, SolveRequest, SolveState
 
 /// Is told how far a long search is, from 0 to 1, and may stop it. Called from the threads that search.
 pub type Watch<'a> = dyn FnMut(f64) -> ControlFlow<()> + Send + 'a;
+
+/// Half of an iteration that takes longer can be felt: a frame of a screen at 60 Hz.
+const SLOW_MS: f64 = 1000.0 / 60.0;
+
+/// What a report tells anew.
+#[derive(Clone, Copy, PartialEq)]
+enum Told {
+    /// Where the surface is.
+    Surface,
+    /// And what was measured on it.
+    All,
+}
 
 /// A prepared solver and the wish it was prepared for.
 pub struct Engine {
@@ -106,21 +118,53 @@ impl Engine {
         let report = bent.deformer_mut().step_while(is_wanted)?;
         (self.is_bent, self.is_pose_new) = (true, true);
         let took = start.elapsed();
+        self.stepped(report, took);
+        Some(took)
+    }
+
+    /// Whether the next iteration is better shown halfway, as a slow one after a change: its second half only turns and finds
+    /// the energy. Where iterations are quick, three of them make a better surface.
+    pub fn is_shown_halfway(&self) -> bool {
+        let moves_first = |bent: &Bent| !bent.is_quick() && bent.deformer().is_next_plain();
+        self.figures.iteration_ms() > SLOW_MS && self.bent.as_ref().is_some_and(moves_first)
+    }
+
+    /// One iteration whose surface is shown halfway; returns how long the second half took. Only where
+    /// [`Engine::is_shown_halfway`] says so.
+    pub fn step_shown_halfway(&mut self, show: impl FnOnce(SolveReport)) -> Duration {
+        let Some(bent) = &mut self.bent else { return Duration::ZERO };
+        let start = Instant::now();
+        bent.deformer_mut().global_step();
+        let first = start.elapsed();
+        (self.is_bent, self.is_pose_new) = (true, true);
+        show(self.report_of(Told::Surface));
+        let Some(bent) = &mut self.bent else { return Duration::ZERO };
+        let start = Instant::now();
+        let report = bent.deformer_mut().local_step();
+        let second = start.elapsed();
+        self.stepped(report, first + second);
+        second
+    }
+
+    fn stepped(&mut self, report: StepReport, took: Duration) {
         self.figures.stepped(report, took);
         if self.stillness.is_reached(report.energy) {
             self.state = SolveState::Settled;
         }
-        Some(took)
     }
 
     /// Where things stand, with the surface ready for the picture unless it is as last reported.
     pub fn report(&mut self) -> SolveReport {
+        self.report_of(Told::All)
+    }
+
+    fn report_of(&mut self, told: Told) -> SolveReport {
         let is_new = std::mem::take(&mut self.is_pose_new);
         let exact = || self.bent.as_ref().map(|bent| bent.pose(&self.ground));
         let pose = if is_new { self.previews.shown().cloned().or_else(exact) } else { None };
         let frame = pose.as_ref().map(|pose| Arc::new(self.ground.frame(pose)));
         // Those of a preview would be of no use, and take longer than the preview.
-        if !self.is_previewing() {
+        if told == Told::All && !self.is_previewing() {
             self.measured = self.measure();
             let bent = self.bent.as_ref().filter(|_| self.wish.wants_energies);
             self.vertex_energies = bent.map(|bent| bent.vertex_energies(&self.ground).into());
@@ -153,6 +197,14 @@ impl Engine {
             (Measure::Stretch, None) => Some(Measured::stretch(model, &self.wish.pose.positions)),
             (_, bent) => Some(Measured::energies(model, measure, bent.as_ref()?.vertex_energies(&self.ground))),
         }
+    }
+
+    /// As if iterations had taken so long.
+    #[cfg(test)]
+    pub(super) fn pretend_iterations_took(&mut self, took: Duration) {
+        let last = self.figures.last;
+        self.figures.forget_all();
+        self.figures.stepped(last, took);
     }
 
     /// Waits until previews can be had.

@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
+use std::time::Duration;
 
 use glam::{DAffine3, DQuat, DVec3};
 use pliant_meshfile::MeshFile;
@@ -185,5 +186,45 @@ fn every_method_follows_a_drag_step_by_step() {
             let off = held.iter().zip(&targets).map(|(v, t)| now[v.index()].distance(*t)).fold(0.0, f64::max);
             assert!(off <= allowed, "{kind:?} at {degrees} degrees: a handle is off by {off}");
         }
+    }
+}
+
+#[test]
+fn a_slow_iteration_after_a_change_is_shown_halfway_and_ends_where_a_whole_one_does() {
+    const QUICK: Duration = Duration::from_millis(1);
+    const SLOW: Duration = Duration::from_millis(20);
+    for kind in [MethodKind::RRing, MethodKind::Arap, MethodKind::SrArap] {
+        let bent_with_another_handle = || {
+            let mut document = sheet();
+            choose(&mut document, kind);
+            let mut engine = leapt(&mut document);
+            engine.pretend_iterations_took(QUICK);
+            engine.step(&mut || true);
+            let report = engine.report();
+            assert!(document.accept(&report.model, report.epoch, report.pose.as_ref()));
+            let vertices = vec![VertexId(8 * ROW + 8)];
+            document.apply(Command::Hold { kind: GroupKind::Handle, vertices }).expect("it exists");
+            adopt(&mut engine, &document);
+            (document.revision(), engine)
+        };
+        let (_, mut whole) = bent_with_another_handle();
+        assert!(!whole.is_shown_halfway(), "{kind:?}: quick iterations go by threes");
+        whole.step(&mut || true);
+
+        let (revision, mut halves) = bent_with_another_handle();
+        halves.pretend_iterations_took(SLOW);
+        assert!(halves.is_shown_halfway(), "{kind:?}");
+        let mut shown = None;
+        halves.step_shown_halfway(|report| shown = Some(report));
+        let shown = shown.expect("shown");
+        assert_eq!(shown.revision, revision, "{kind:?}: it knows of the handle");
+        let shown = shown.pose.expect("a new surface").positions.to_vec();
+        assert!(Some(shown) == whole.positions(), "{kind:?}: halfway it is elsewhere");
+        assert!(halves.positions() == whole.positions(), "{kind:?}: in the end it is elsewhere");
+        halves.pretend_iterations_took(SLOW);
+        assert!(!halves.is_shown_halfway(), "{kind:?}: the next may be shortened, and is shown when it is done");
+        let (whole, halves) = (whole.report(), halves.report());
+        assert_eq!((halves.energy, halves.iteration), (whole.energy, whole.iteration), "{kind:?}");
+        assert!(halves.pose.is_none(), "{kind:?}: shown already");
     }
 }

@@ -85,12 +85,20 @@ fn run(inbox: &Mailbox<SolveRequest>, mut send: impl FnMut(SolveReport) + Send) 
                 engine.leave_preview();
             }
             if engine.is_busy() && !engine.is_previewing() {
-                let about = newest.as_ref();
-                let previews = engine.can_preview();
-                let other = |newer: &SolveRequest| previews || about.is_none_or(|about| newer.is_other_system(about));
-                let mut is_wanted = || !inbox.has(other);
-                // What an iteration on the way would find is of no use to a newer wish for another system.
-                let Some(took) = engine.step(&mut is_wanted) else { return };
+                let took = if engine.is_shown_halfway() {
+                    engine.step_shown_halfway(|report| {
+                        send(report);
+                        pace.reported(Duration::ZERO);
+                    })
+                } else {
+                    let about = newest.as_ref();
+                    let previews = engine.can_preview();
+                    let other =
+                        |newer: &SolveRequest| previews || about.is_none_or(|about| newer.is_other_system(about));
+                    // What an iteration on the way would find is of no use to a newer wish for another system.
+                    let Some(took) = engine.step(&mut || !inbox.has(other)) else { return };
+                    took
+                };
                 if pace.stepped(took) == Next::GoOn && engine.is_busy() {
                     return;
                 }
