@@ -1,6 +1,7 @@
 //! The editor without its window: what is open, which tool is in hand, what the solver said. Everything the window
 //! does goes through here, and so can a test.
 
+mod aside;
 mod compare;
 mod exporting;
 mod handles;
@@ -58,6 +59,7 @@ pub struct Session {
     /// Methods side by side, while that is open.
     compare: Option<super::Compare>,
     typed_placement: handles::Typed,
+    aside: aside::Aside,
     /// The strip of kept poses.
     strip: poses::Strip,
     playing: playing::Playing,
@@ -108,6 +110,7 @@ impl Session {
             learning: None,
             compare: None,
             typed_placement: None,
+            aside: None,
             strip: poses::Strip::default(),
             playing: playing::Playing::default(),
             exporting: None,
@@ -185,6 +188,7 @@ impl Session {
         self.options.paint.fit(f64::from(opened.model.diagonal()), opened.model.mean_edge());
         self.options.gizmo.fit(f64::from(opened.model.diagonal()));
         self.typed_placement = None;
+        self.aside = None;
         self.tool = self.tool_kind.new_tool();
         self.status = Status::default();
         self.learning = None;

@@ -65,6 +65,8 @@ pub(super) struct ViewportPanel {
     /// The button that began the gesture: only its release ends it.
     button: Option<PointerButton>,
     pointer: Option<Pos2>,
+    /// Keys that were held when the tool last heard of a drag.
+    keys: egui::Modifiers,
     /// What lay under the pointer when the tool last heard of it.
     hovered: Option<Hovered>,
     cache: Cache,
@@ -96,6 +98,7 @@ impl ViewportPanel {
             gesture: None,
             button: None,
             pointer: None,
+            keys: egui::Modifiers::NONE,
             hovered: None,
             cache: Cache::default(),
             shown: None,
@@ -196,11 +199,14 @@ impl ViewportPanel {
         if is_over {
             self.hover_again(ui.input(|input| input.modifiers), rect, session);
         }
+        // A key that is pressed while the pointer rests acts at once.
+        let keys = ui.input(|input| input.modifiers);
+        let are_other = std::mem::replace(&mut self.keys, keys) != keys;
         if self.gesture == Some(Gesture::Tool)
-            && session.tool_is_behind()
+            && (are_other || session.tool_is_behind())
             && let Some(pos) = self.pointer
         {
-            session.input(Input::Drag(pointer(pos, ui.input(|input| input.modifiers), rect)));
+            session.input(Input::Drag(pointer(pos, keys, rect)));
             ui.ctx().request_repaint();
         }
         let factor = (scroll * ZOOM_PER_POINT).exp() * pinch;
@@ -490,7 +496,10 @@ fn group_dots(session: &Session, rims: &mut Rims) -> Vec<Dot> {
 }
 
 fn pointer(pos: Pos2, keys: egui::Modifiers, rect: Rect) -> Pointer {
-    Pointer { px: to_vec(pos - rect.min), modifiers: Modifiers { shift: keys.shift, ctrl: keys.command } }
+    Pointer {
+        px: to_vec(pos - rect.min),
+        modifiers: Modifiers { shift: keys.shift, ctrl: keys.command, alt: keys.alt },
+    }
 }
 
 fn to_vec(v: egui::Vec2) -> Vec2 {

@@ -273,4 +273,8 @@ impl Tool for BrushTool {
     fn is_active(&self) -> bool {
         self.stroke.is_some()
     }
+
+    fn is_over_surface(&self) -> bool {
+        self.hover.is_some()
+    }
 }

@@ -260,6 +260,10 @@ impl Tool for FillTool {
         !matches!(self.state, State::Idle)
     }
 
+    fn is_over_surface(&self) -> bool {
+        self.hover.is_some()
+    }
+
     fn is_behind(&self) -> bool {
         matches!(&self.state, State::Growing(grow) if grow.is_behind())
     }

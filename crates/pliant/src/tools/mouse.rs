@@ -28,6 +28,7 @@ impl ToolKind {
                 ("X, Y, Z while dragging", "lock an axis"),
                 ("Shift while dragging", "keep to the nearest axis"),
                 ("Ctrl while dragging", "steps of the grid, of 15°, of a tenth"),
+                ("Alt while dragging", "onto the vertex near the pointer"),
             ],
             ToolKind::Anchor => &[
                 ("Click the surface", "hold it where it is"),

@@ -14,6 +14,8 @@ pub struct Modifiers {
     pub shift: bool,
     /// Snap, remove, softer. Command on a Mac.
     pub ctrl: bool,
+    /// Onto a vertex. Option on a Mac.
+    pub alt: bool,
 }
 
 /// Where the pointer is, in points from the viewport's top left.
@@ -184,5 +186,9 @@ pub trait Tool: Send {
     /// What lies under the pointer, for actions that mean it. Tools whose own actions do not say so tell nothing.
     fn pointed_at(&self) -> Option<Pick> {
         None
+    }
+    /// Whether the pointer is over the surface, as far as the tool looks for that.
+    fn is_over_surface(&self) -> bool {
+        self.pointed_at().is_some()
     }
 }

@@ -260,7 +260,7 @@ fn several_handles_dragged_or_turned_keep_their_places_to_each_other() {
     }
     // Shift+click lets one go.
     let at = on_screen_of(&session, groups(&session)[0].center());
-    let pressed = Pointer { px: at, modifiers: Modifiers { shift: true, ctrl: false } };
+    let pressed = Pointer { px: at, modifiers: Modifiers { shift: true, ctrl: false, alt: false } };
     session.input(Input::Hover(pressed));
     session.input(Input::Press(pressed));
     session.input(Input::Release(pressed));
@@ -284,7 +284,7 @@ fn a_drag_locked_to_an_axis_or_a_grid_stays_on_it() {
     session.input(Input::Key(ToolKey::Axis(1)));
     let locked = way(&session);
     assert!(locked.y != 0.0 && locked.x == 0.0 && locked.z == 0.0, "{locked}");
-    let ctrl = Modifiers { shift: false, ctrl: true };
+    let ctrl = Modifiers { shift: false, ctrl: true, alt: false };
     session.input(Input::Drag(Pointer { px: from + Vec2::new(-20.0, 90.0), modifiers: ctrl }));
     let snapped = way(&session).y / 0.05;
     assert!(snapped != 0.0 && (snapped - snapped.round()).abs() < 1e-9, "{snapped} steps");
@@ -295,11 +295,47 @@ fn a_drag_locked_to_an_axis_or_a_grid_stays_on_it() {
 
     // Shift keeps to the axis that the pointer follows most.
     session.input(Input::Press(pointer(from)));
-    let shift = Modifiers { shift: true, ctrl: false };
+    let shift = Modifiers { shift: true, ctrl: false, alt: false };
     session.input(Input::Drag(Pointer { px: from + Vec2::new(80.0, 6.0), modifiers: shift }));
     let kept = way(&session);
     assert_eq!([kept.x, kept.y, kept.z].iter().filter(|&&x| x != 0.0).count(), 1, "{kept}");
     session.input(Input::Key(ToolKey::Escape));
+}
+
+#[test]
+fn a_drag_with_alt_lands_on_the_vertex_near_the_pointer_as_far_as_an_axis_lets_it() {
+    let mut session = session_with(sheet(20));
+    let [_, b] = two_handles(&mut session);
+    // Aslant: a way in the plane of the view would leave the sheet.
+    session.open_mut().expect("open").camera.orbit(Vec2::new(60.0, 40.0));
+    let center = |session: &Session| document(session).scene().group(b).expect("a handle").center();
+    let (start, from, vertex) = (center(&session), on_screen_of(&session, center(&session)), 215_u32);
+    let there = document(&session).model().mesh.positions()[vertex as usize];
+    let near = on_screen(&session, vertex) + Vec2::new(3.0, -4.0);
+    press_and_move(&mut session, from, near);
+    assert!(center(&session).z.abs() > 1e-2, "without Alt it is on the vertex by itself");
+    let alt = Modifiers { alt: true, ..Modifiers::default() };
+    session.input(Input::Drag(Pointer { px: near, modifiers: alt }));
+    // Pictures have positions in single precision.
+    assert!(center(&session).distance(there) < 1e-6, "{}, expected {there}", center(&session));
+    let hint = session.with_tool(|tool, context| tool.hint(context)).expect("a hint");
+    assert!(hint.contains("vertex 215"), "{hint}");
+    session.input(Input::Key(ToolKey::Axis(0)));
+    let expected = DVec3::new(there.x, start.y, start.z);
+    assert!(center(&session).distance(expected) < 1e-6, "{}, expected {expected}", center(&session));
+    session.input(Input::Key(ToolKey::Sign('2')));
+    let expected = start + DVec3::X * 2.0;
+    assert!(center(&session).distance(expected) < 1e-12, "what is typed counts: {}", center(&session));
+    session.input(Input::Key(ToolKey::Escape));
+    // Its own vertices are no targets: it would never leave.
+    let own = document(&session).scene().group(b).expect("a handle").vertices[0].0;
+    let near = on_screen(&session, own);
+    press_and_move(&mut session, from, near);
+    session.input(Input::Drag(Pointer { px: near, modifiers: alt }));
+    let place = document(&session).model().mesh.positions()[own as usize];
+    assert!(center(&session).distance(place) > 1e-3, "it landed on its own vertex");
+    session.input(Input::Key(ToolKey::Escape));
+    assert_eq!(center(&session), start);
 }
 
 #[test]

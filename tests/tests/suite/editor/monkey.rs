@@ -23,7 +23,7 @@ impl Dice {
     }
 
     fn pointer(&mut self) -> Pointer {
-        let modifiers = Modifiers { shift: self.below(4) == 0, ctrl: self.below(4) == 0 };
+        let modifiers = Modifiers { shift: self.below(4) == 0, ctrl: self.below(4) == 0, alt: self.below(4) == 0 };
         Pointer { px: self.px(), modifiers }
     }
 }

@@ -3,6 +3,7 @@
 use pliant::document::Snapshot;
 use pliant::editor::{JobEvent, leftovers};
 use pliant::project::{Mesh, MeshChoice};
+use pliant::tools::Pivot;
 
 use super::*;
 
@@ -42,6 +43,8 @@ fn a_project_opens_as_it_was_left_and_is_not_taken_for_changed() {
     let mut session = bent();
     session.take_tool(ToolKind::Brush);
     session.options.brush_radius_px = 77.0;
+    let pivot = Pivot::Point(DVec3::new(0.25, -1.0 / 3.0, 0.125));
+    session.options.gizmo.pivot = pivot;
     let camera = {
         let open = session.open_mut().expect("open");
         open.camera.orbit(Vec2::new(30.0, 40.0));
@@ -55,6 +58,7 @@ fn a_project_opens_as_it_was_left_and_is_not_taken_for_changed() {
     assert_eq!(open.project.as_ref().map(|project| project.path.as_path()), Some(to.as_path()));
     assert_eq!(document(&again).scene(), &snapshot.scene);
     assert_eq!((again.tool_kind(), again.options.brush_radius_px), (ToolKind::Brush, 77.0));
+    assert_eq!(again.options.gizmo.pivot, pivot);
     assert_eq!(document(&again).pose(), &snapshot.pose, "it opens elsewhere than it was left");
     settle(&mut again);
     assert!(!document(&again).is_modified(), "settling again counts as a change");

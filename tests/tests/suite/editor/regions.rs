@@ -248,7 +248,7 @@ fn the_brush_locks_and_unlocks() {
     click(&mut session, at);
     assert!(document(&session).scene().locked.contains(VertexId(middle(10))));
     assert_eq!(document(&session).history().undo_name(), Some("Lock rigidity"));
-    let ctrl = Pointer { px: at, modifiers: Modifiers { ctrl: true, shift: false } };
+    let ctrl = Pointer { px: at, modifiers: Modifiers { ctrl: true, shift: false, alt: false } };
     session.input(Input::Press(ctrl));
     session.input(Input::Release(ctrl));
     assert!(document(&session).scene().locked.is_empty());

@@ -125,11 +125,11 @@ fn a_click_takes_a_vertex_and_a_double_click_all_that_is_linked_to_it() {
     assert_eq!(selected(&session), [v].into());
     session.input(Input::DoubleClick(pointer(at)));
     assert_eq!(selected(&session), (n - 25..n).collect(), "the sheet on the right");
-    let shift = Modifiers { shift: true, ctrl: false };
+    let shift = Modifiers { shift: true, ctrl: false, alt: false };
     let at_other = on_screen(&session, other);
     session.input(Input::DoubleClick(Pointer { px: at_other, modifiers: shift }));
     assert_eq!(selected(&session), (n - 89..n).collect(), "both sheets");
-    let ctrl = Modifiers { shift: false, ctrl: true };
+    let ctrl = Modifiers { shift: false, ctrl: true, alt: false };
     session.input(Input::DoubleClick(Pointer { px: at, modifiers: ctrl }));
     assert_eq!(selected(&session), (n - 89..n - 25).collect(), "the sheet on the left remains");
     session.input(Input::Hover(pointer(at)));
@@ -158,9 +158,9 @@ fn a_stroke_of_the_selecting_brush_is_one_step_that_shift_adds_and_ctrl_removes(
         session.input(Input::Drag(Pointer { px: at + side, modifiers }));
         session.input(Input::Release(Pointer { px: at + side, modifiers }));
     };
-    with(&mut session, low, Modifiers { shift: true, ctrl: false });
+    with(&mut session, low, Modifiers { shift: true, ctrl: false, alt: false });
     assert_eq!(selected(&session), &first | &second, "Shift adds");
-    with(&mut session, low, Modifiers { shift: false, ctrl: true });
+    with(&mut session, low, Modifiers { shift: false, ctrl: true, alt: false });
     assert_eq!(selected(&session), &second - &first, "Ctrl removes");
 
     press_and_move(&mut session, low, low + side);

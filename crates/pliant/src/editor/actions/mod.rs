@@ -143,9 +143,11 @@ impl Action {
         self.entry.begins_part
     }
 
-    /// Does it, unless something is in the way or it needs the window. Returns whether it was done.
+    /// Does it, unless something is in the way, which the hint line says then, or it needs the window. Returns whether
+    /// it was done.
     pub fn perform_in(self, session: &mut Session) -> bool {
-        if self.obstacle(session).is_some() {
+        if let Some(why) = self.obstacle(session) {
+            session.refuse(self, why);
             return false;
         }
         match self.entry.does {

@@ -118,7 +118,11 @@ fn no_handle_to_delete(session: &Session) -> Option<&'static str> {
 /// The handle tools know what is under the pointer; with another tool in hand the active group goes.
 fn delete_handle(session: &mut Session) {
     if holds_handles(session.tool_kind()) {
+        let before = session.document().map(|document| document.revision());
         session.input(Input::Key(ToolKey::Delete));
+        if session.document().map(|document| document.revision()) == before {
+            session.refuse(crate::editor::Action::DELETE_HANDLE, "Point at a handle or anchor, or click one first");
+        }
     } else if let Some(ids) = session.document().map(|document| document.scene().active.ids().to_vec()) {
         session.apply(Command::Release(ids));
     }

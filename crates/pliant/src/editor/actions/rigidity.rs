@@ -118,7 +118,7 @@ actions! {
     .key(NONE, Key::I)
     .apart()
     .unless(no_painting_tool)
-    .does(|session| session.input(Input::Key(ToolKey::Eyedropper)));
+    .does(take_rigidity);
     /// A smaller brush.
     BRUSH_SMALLER = Entry::new("rigidity.brush-smaller", "Smaller brush", "Make the brush, or the patch of the next handle, smaller")
         .key(NONE, Key::OpenBracket)
@@ -127,6 +127,14 @@ actions! {
     BRUSH_LARGER = Entry::new("rigidity.brush-larger", "Larger brush", "Make the brush, or the patch of the next handle, larger")
         .key(NONE, Key::CloseBracket)
         .does(|session| scale_brush(session, BRUSH_STEP));
+}
+
+fn take_rigidity(session: &mut Session) {
+    if session.is_over_surface() {
+        session.input(Input::Key(ToolKey::Eyedropper));
+    } else {
+        session.refuse(crate::editor::Action::EYEDROPPER, "Point at the surface first");
+    }
 }
 
 fn toggle_mirror(session: &mut Session, kind: MirrorKind) {

@@ -48,9 +48,15 @@ pub(in crate::editor) fn status(ui: &mut Ui, session: &mut Session, is_software:
     });
     let hint = session.with_tool(|tool, context| tool.hint(context)).unwrap_or_else(|| "Open a mesh".into());
     ui.horizontal(|ui| {
-        ui.label(RichText::new(hint).color(quiet));
-        if let Some(why) = session.idle_painting() {
-            ui.label(RichText::new(why).color(theme::ACCENT));
+        if let Some(aside) = session.aside() {
+            let label = ui.label(RichText::new(aside).color(theme::ACCENT));
+            // Read out to those who do not see it.
+            ui.ctx().accesskit_node_builder(label.id, |node| node.set_live(egui::accesskit::Live::Polite));
+        } else {
+            ui.label(RichText::new(hint).color(quiet));
+            if let Some(why) = session.idle_painting() {
+                ui.label(RichText::new(why).color(theme::ACCENT));
+            }
         }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             let camera = "Middle or right drag: turn · Shift: move · wheel: zoom";

@@ -34,6 +34,11 @@ impl Session {
         (of_document.0, self.preparing.n_answers(), of_document.1)
     }
 
+    /// Whether the pointer is over the surface, as far as the tool in hand looks for that.
+    pub fn is_over_surface(&self) -> bool {
+        self.tool.is_over_surface()
+    }
+
     /// Whether the tool in hand has more to do for the drag it was last told of.
     pub fn tool_is_behind(&self) -> bool {
         self.tool.is_behind()

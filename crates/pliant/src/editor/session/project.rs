@@ -38,9 +38,10 @@ impl Session {
         }
     }
 
-    /// Looks after the autosave and the preferences; [`Session::poll`] does it with the time it is.
+    /// Looks after the autosave, the preferences and what stands on the hint line for a moment; [`Session::poll`] does it with the time it is.
     pub fn tick(&mut self, now: Instant) {
         self.keep_preferences(now);
+        self.end_aside(now);
         let Some(mut autosave) = self.autosave.take() else { return };
         let is_busy = self.tool_is_active() || self.document().is_some_and(|document| document.in_step());
         let contents = || self.contents(Mesh::Packed);
@@ -55,7 +56,8 @@ impl Session {
     pub fn due_in(&self, now: Instant) -> Option<Duration> {
         let autosave = self.autosave.as_ref().and_then(|autosave| autosave.due_in(now));
         let preferences = self.preferences_due.map(|due| due.saturating_duration_since(now));
-        autosave.into_iter().chain(preferences).min()
+        let aside = self.aside.as_ref().map(|(_, until)| until.saturating_duration_since(now));
+        autosave.into_iter().chain(preferences).chain(aside).min()
     }
 
     /// Where this window keeps its autosave, if it does.

@@ -160,6 +160,16 @@ impl Gizmo {
         }
     }
 
+    /// What of a way in space a part that moves can go: all of it, along its axis, or in its plane.
+    pub fn share(&self, part: GizmoPart, way: DVec3) -> Option<DVec3> {
+        match part {
+            GizmoPart::Free => Some(way),
+            GizmoPart::Move(axis) => Some(self.axes.col(axis) * way.dot(self.axes.col(axis))),
+            GizmoPart::MovePlane(normal) => Some(way - self.axes.col(normal) * way.dot(self.axes.col(normal))),
+            GizmoPart::Rotate(_) | GizmoPart::RotateView | GizmoPart::Scale | GizmoPart::ScaleAxis(_) => None,
+        }
+    }
+
     /// What the numbers of a part mean.
     pub fn change(&self, part: GizmoPart, amount: DVec2) -> Change {
         match part {

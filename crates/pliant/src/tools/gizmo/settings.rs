@@ -21,7 +21,8 @@ pub enum GizmoShown {
 }
 
 /// The point that turns and stretches leave in place.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Pivot {
     /// The middle of all active handles.
     #[default]
@@ -29,7 +30,7 @@ pub enum Pivot {
     /// Each handle's own middle.
     Each,
     /// A point on the surface that was picked, world space.
-    Point(DVec3),
+    Point(#[serde(with = "numbers")] DVec3),
     /// The world's origin.
     Origin,
 }
@@ -52,8 +53,7 @@ pub enum Axes {
 pub struct GizmoSettings {
     /// Which parts.
     pub shown: GizmoShown,
-    /// About which point. Not kept: a picked point belongs to what is open.
-    #[serde(skip)]
+    /// About which point. One that was picked belongs to what is open, and is kept in its project.
     pub pivot: Pivot,
     /// Along which axes.
     pub axes: Axes,
@@ -81,6 +81,9 @@ impl GizmoSettings {
     pub fn in_range(mut self) -> GizmoSettings {
         if !(self.step.is_finite() && self.step > 0.0) {
             self.step = GizmoSettings::default().step;
+        }
+        if matches!(self.pivot, Pivot::Point(point) if !point.is_finite()) {
+            self.pivot = Pivot::Middle;
         }
         self
     }
@@ -111,6 +114,20 @@ impl GizmoSettings {
             Axes::Local => lead().and_then(|lead| rotation_of(lead.motion.matrix3)).unwrap_or(DMat3::IDENTITY),
             Axes::View => view_axes(view),
         }
+    }
+}
+
+/// A point as three numbers.
+mod numbers {
+    use glam::DVec3;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub(super) fn serialize<S: Serializer>(point: &DVec3, serializer: S) -> Result<S::Ok, S::Error> {
+        point.to_array().serialize(serializer)
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<DVec3, D::Error> {
+        <[f64; 3]>::deserialize(deserializer).map(DVec3::from_array)
     }
 }
 

@@ -1,11 +1,14 @@
 //! What a drag holds: the handles as they were when it began, and how the pointer, the keys held and what is typed move
 //! them.
 
+use std::sync::Arc;
+
 use glam::{DAffine3, DVec2, DVec3, Vec2};
 
-use crate::document::{Command, Group, GroupId, GroupKind, Scene};
+use super::snap::{self, Target};
+use crate::document::{Change, Command, Group, GroupId, GroupKind, Scene};
 use crate::tools::{Context, Gizmo, GizmoPart, GizmoSettings, Pointer, View, length};
-use crate::viewport::Line;
+use crate::viewport::{Line, SurfaceFrame};
 
 /// More digits than a number can use.
 const LONGEST_NUMBER: usize = 20;
@@ -21,11 +24,16 @@ struct Member {
 }
 
 /// A drag under way, as a value.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub(super) struct Grip {
     part: GizmoPart,
     gizmo: Gizmo,
     members: Vec<Member>,
+    /// The middle of the handle that leads, world space, and the surface: both as they were when the drag began.
+    lead: DVec3,
+    frame: Arc<SurfaceFrame>,
+    /// The vertex that the leading handle lies on.
+    target: Option<Target>,
     /// The axis that a key has locked.
     lock: Option<usize>,
     typed: String,
@@ -37,22 +45,34 @@ pub(super) struct Grip {
 
 impl Grip {
     /// Nothing yet, taken by a part of the gizmo or as it is.
-    pub(super) fn new(part: GizmoPart, gizmo: Gizmo, at: Pointer) -> Grip {
-        let (lock, typed) = (None, String::new());
-        Grip { part, gizmo, members: Vec::new(), lock, typed, from_px: at.px, last: at, on_click: None }
+    pub(super) fn new(part: GizmoPart, gizmo: Gizmo, at: Pointer, frame: &Arc<SurfaceFrame>) -> Grip {
+        Grip {
+            part,
+            gizmo,
+            members: Vec::new(),
+            lead: DVec3::ZERO,
+            frame: frame.clone(),
+            target: None,
+            lock: None,
+            typed: String::new(),
+            from_px: at.px,
+            last: at,
+            on_click: None,
+        }
     }
 
     /// With all active handles of a scene. `place` is where the gizmo stands, world space.
     pub(super) fn holding(self, scene: &Scene, settings: &GizmoSettings, place: DVec3) -> Grip {
-        let handles = scene.active_groups().filter(|group| group.kind == GroupKind::Handle);
+        let handles = || scene.active_groups().filter(|group| group.kind == GroupKind::Handle);
+        let lead = handles().last().map_or(place, Group::center);
         let member =
             |group: &Group| Member { id: group.id, motion: group.motion, pivot: settings.pivot_of(group, place) };
-        Grip { members: handles.map(member).collect(), ..self }
+        Grip { members: handles().map(member).collect(), lead, ..self }
     }
 
     /// With a handle that is about to be placed.
     pub(super) fn holding_new(self, id: GroupId, pivot: DVec3) -> Grip {
-        Grip { members: vec![Member { id, motion: DAffine3::IDENTITY, pivot }], ..self }
+        Grip { members: vec![Member { id, motion: DAffine3::IDENTITY, pivot }], lead: pivot, ..self }
     }
 
     /// How far the pointer is from where the drag began, in points.
@@ -60,9 +80,28 @@ impl Grip {
         px.distance(self.from_px)
     }
 
-    /// Follows the pointer.
-    pub(super) fn follow(&mut self, pointer: Pointer) {
+    /// Follows the pointer; with Alt it looks for a vertex to lie on.
+    pub(super) fn follow(&mut self, pointer: Pointer, context: &Context<'_>) {
         self.last = pointer;
+        let moves = !self.part.turns() && !self.part.scales();
+        self.target = if moves && pointer.modifiers.alt {
+            let scene = context.document.scene();
+            let own: Vec<&Group> = self.members.iter().filter_map(|member| scene.group(member.id)).collect();
+            snap::target(&self.frame, pointer.px, &context.view, |v| own.iter().any(|group| group.holds(v)))
+        } else {
+            None
+        };
+    }
+
+    /// The vertex that the handle lies on now, if it does.
+    pub(super) fn target(&self) -> Option<&Target> {
+        self.target.as_ref().filter(|_| !self.is_typed())
+    }
+
+    /// How far it is onto that vertex, as far as a part can go there.
+    fn way_onto(&self, part: GizmoPart, context: &Context<'_>) -> Option<DVec3> {
+        let position = context.document.model().to_world(self.target()?.position);
+        self.gizmo.share(part, position - self.lead)
     }
 
     /// Locks to an axis, or frees what was locked to it.
@@ -124,7 +163,10 @@ impl Grip {
     /// The motions that follow. `None` where the pointer says nothing, or a number is not yet one.
     pub(super) fn motions(&self, context: &Context<'_>) -> Option<Command> {
         let part = self.part(&context.view);
-        let change = self.gizmo.change(part, self.amount(part, context)?);
+        let change = match self.way_onto(part, context) {
+            Some(way) => Change::moved(way),
+            None => self.gizmo.change(part, self.amount(part, context)?),
+        };
         let moved = |member: &Member| (member.id, change.about(member.pivot) * member.motion);
         Some(Command::MoveSeveral(self.members.iter().map(moved).collect()))
     }
@@ -140,8 +182,11 @@ impl Grip {
         if self.is_typed() {
             return format!("{axis}{}{}{unit}", if part.scales() { "× " } else { "" }, self.typed);
         }
-        let Some(amount) = self.amount(part, context) else { return axis.trim().to_owned() };
         let length = |x: f64| length(x, f64::from(context.document.model().diagonal()));
+        if let Some(way) = self.way_onto(part, context) {
+            return format!("{axis}{}, onto a vertex", length(way.length()));
+        }
+        let Some(amount) = self.amount(part, context) else { return axis.trim().to_owned() };
         match part {
             _ if part.turns() => format!("{axis}{:.1}°", amount.x.to_degrees()),
             _ if part.scales() => format!("{axis}× {:.3}", amount.x),

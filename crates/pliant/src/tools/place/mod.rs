@@ -1,6 +1,7 @@
 //! The handle and anchor tools: click to hold a patch, drag to bend, gizmo and typed values for the active handles.
 
 mod grip;
+mod snap;
 mod words;
 
 use std::borrow::Cow;
@@ -35,7 +36,7 @@ enum Target {
     Surface(Pick),
 }
 
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 enum State {
     Idle {
         hover: Option<Target>,
@@ -117,7 +118,7 @@ impl PlaceTool {
     /// Takes the active handles by a part of the gizmo.
     fn take(&mut self, part: GizmoPart, pointer: Pointer, context: &Context<'_>) -> Reaction {
         let Some((gizmo, place)) = self.gizmo(context) else { return Reaction::default() };
-        let grip = Grip::new(part, gizmo, pointer);
+        let grip = Grip::new(part, gizmo, pointer, context.surface.frame());
         let grip = grip.holding(context.document.scene(), &context.options.gizmo, place);
         let begin = Command::Begin(grip.step_name());
         self.state = State::Pressed(grip);
@@ -146,7 +147,8 @@ impl PlaceTool {
         // The drag follows the pointer at the depth of the handle that was taken, wherever the gizmo stands.
         let center = context.document.model().to_view(group.center());
         let gizmo = Gizmo::new(center, axes, settings.shown, &context.view);
-        let mut grip = Grip::new(GizmoPart::Free, gizmo, pointer).holding(&after, settings, place);
+        let mut grip = Grip::new(GizmoPart::Free, gizmo, pointer, context.surface.frame());
+        grip = grip.holding(&after, settings, place);
         grip.on_click = match (shift, was_active) {
             (true, true) => Some(scene.active.toggled(id)),
             (false, true) if scene.active.len() == 1 => self.beneath(group, context).map(|next| vec![next]),
@@ -177,7 +179,8 @@ impl PlaceTool {
         }
         let gizmo = Gizmo::new(pick.position, DMat3::IDENTITY, GizmoShown::All, &context.view);
         let pivot = context.document.model().origin + pick.position.as_dvec3();
-        let grip = Grip::new(GizmoPart::Free, gizmo, pointer).holding_new(context.document.next_group(), pivot);
+        let grip = Grip::new(GizmoPart::Free, gizmo, pointer, context.surface.frame());
+        let grip = grip.holding_new(context.document.next_group(), pivot);
         self.state = State::Pressed(grip);
         vec![Command::Begin("Place handle"), hold].into()
     }
@@ -187,7 +190,7 @@ impl PlaceTool {
             return Reaction::default();
         };
         let is_click = grip.distance(pointer.px) < CLICK_PX && !grip.is_typed();
-        grip.follow(pointer);
+        grip.follow(pointer, context);
         if is_click && matches!(self.state, State::Pressed(_)) {
             return Reaction::default();
         }
@@ -384,6 +387,7 @@ impl Tool for PlaceTool {
             marks.lines.extend(grip.and_then(|grip| grip.axis_line(&gizmo, &context.view)));
         }
         if let Some(grip) = grip.filter(|_| !matches!(self.state, State::Pressed(_))) {
+            marks.lines.extend(grip.target().into_iter().flat_map(|target| target.lines(&context.view)));
             marks.label = Some(Label { px: grip.place(), text: grip.reading(context) });
         }
         let positions = &context.surface.frame().positions;

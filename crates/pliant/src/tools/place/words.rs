@@ -20,9 +20,15 @@ impl PlaceTool {
                 let keys = match grip.taken() {
                     part if part.turns() => "Ctrl snaps to 15°",
                     part if part.scales() => "Ctrl snaps to tenths",
-                    GizmoPart::Move(_) => "Ctrl snaps to the grid",
-                    _ => "Shift keeps to an axis · Ctrl snaps to the grid",
+                    GizmoPart::Move(_) => "Ctrl snaps to the grid, Alt to a vertex",
+                    _ => "Shift keeps to an axis · Ctrl snaps to the grid, Alt to a vertex",
                 };
+                if let Some(target) = grip.target() {
+                    return format!(
+                        "On vertex {} of the surface · Shift keeps to an axis · Esc takes it back",
+                        target.vertex.0
+                    );
+                }
                 format!("{keys} · X Y Z lock an axis · or type a number · Esc takes it back")
             }
             State::PickingPivot => "Click the surface where the pivot shall be · Esc leaves it where it was".into(),
