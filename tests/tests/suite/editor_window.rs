@@ -2,6 +2,7 @@
 
 mod handles;
 mod marks;
+mod poses;
 mod projects;
 
 use std::time::{Duration, Instant};

@@ -146,6 +146,7 @@ impl eframe::App for EditorApp {
         let mut chosen = Vec::new();
         let is_asking = self.compare.is_asking() || self.strip.is_asking() || !self.session.recovery.is_empty();
         if self.dialog == Dialog::None && !is_asking {
+            self.strip.take_keys(&ctx, &mut self.session);
             chosen.extend(self.keyboard.take(&ctx, &mut self.session, self.viewport.id));
         }
         let theme_before = self.session.look.theme;

@@ -2,6 +2,7 @@
 //! leaves nothing behind.
 
 mod sequence;
+mod staging;
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -74,7 +75,7 @@ pub(super) fn each_frame(
         if !progress(fraction(first)) || frame(first, Solved { pose, frame: picture }).is_break() {
             return Ok(None);
         }
-        let Some(next) = work.poses.get(k + 1).filter(|_| between > 0) else { continue };
+        let Some(next) = work.plan.next(k, work.poses.len()).filter(|_| between > 0) else { continue };
         let at = std::sync::atomic::AtomicUsize::new(first);
         let broke = std::sync::atomic::AtomicBool::new(false);
         let order = std::sync::atomic::Ordering::Relaxed;
@@ -85,7 +86,7 @@ pub(super) fn each_frame(
                 broke.store(true, order);
             }
         };
-        let segment = Segment::new(kept, next);
+        let segment = Segment::new(kept, &work.poses[next]);
         let solved = inbetweens((&ground, &work.template), &segment, between, &goes_on, &mut each)?;
         if solved.is_none() || broke.load(order) {
             return Ok(None);
@@ -110,8 +111,9 @@ fn animation(work: &Export, progress: &Progress<'_>) -> Result<Result<Vec<String
     let names: Vec<String> = (0..frames.len()).map(|number| name(work, number)).collect();
     let shapes: Vec<MorphShape<'_>> =
         frames.iter().zip(&names).map(|(points, name)| MorphShape { name, points }).collect();
+    // A loop ends as it begins.
     let keys: Vec<(f32, Option<usize>)> =
-        work.plan.times(work.poses.len()).enumerate().map(|(k, time)| (time as f32, Some(k))).collect();
+        work.plan.times(work.poses.len()).enumerate().map(|(k, time)| (time as f32, Some(k % frames.len()))).collect();
     let morphs = Morphs { shapes: &shapes, animation: "Poses", keys: &keys, stepped: work.plan.stepped };
     let mut watch = |done: f64| match progress(share + (1.0 - share) * done) {
         true => ControlFlow::Continue(()),
@@ -126,8 +128,8 @@ fn animation(work: &Export, progress: &Progress<'_>) -> Result<Result<Vec<String
 fn name(work: &Export, number: usize) -> String {
     let (pose, step) = (number / (work.plan.between + 1), number % (work.plan.between + 1));
     let from = &work.poses[pose].name;
-    match work.poses.get(pose + 1).filter(|_| step > 0) {
-        Some(to) => format!("{from} to {} {step}/{}", to.name, work.plan.between + 1),
+    match work.plan.next(pose, work.poses.len()).filter(|_| step > 0) {
+        Some(to) => format!("{from} to {} {step}/{}", work.poses[to].name, work.plan.between + 1),
         None => from.clone(),
     }
 }

@@ -4,6 +4,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
+use super::plan::n_ways;
 use super::{Segment, inbetweens};
 use crate::document::{KeptPose, Pose};
 use crate::solving::{Groundwork, SolveRequest};
@@ -33,21 +34,33 @@ pub struct Frames {
     between: usize,
 }
 
+/// What frames are made from.
+pub struct Source {
+    /// In their order.
+    pub poses: Arc<[KeptPose]>,
+    /// Mesh, method and sizes.
+    pub template: SolveRequest,
+    /// What the editor's solver stands on, if it is there.
+    pub ground: Option<Arc<Groundwork>>,
+    /// Whether there are surfaces from the last pose back to the first.
+    pub closed: bool,
+}
+
 impl Frames {
     /// Starts the thread. `wake` is called from it whenever there is another surface.
     pub fn start(
-        poses: Arc<[KeptPose]>,
-        template: SolveRequest,
-        ground: Option<Arc<Groundwork>>,
+        Source { poses, template, ground, closed }: Source,
         wake: impl Fn() + Send + 'static,
     ) -> std::io::Result<Frames> {
-        let between = between(poses.len(), template.model.mesh.n_vertices());
-        let n = poses.len() + poses.len().saturating_sub(1) * between;
+        let n_ways = n_ways(poses.len(), closed);
+        let between = between((poses.len(), n_ways), template.model.mesh.n_vertices());
+        let n = poses.len() + n_ways * between;
         let surfaces = Surfaces { list: vec![None; n], n_solved: 0, failure: None };
         let shared = Arc::new(Shared { surfaces: Mutex::new(surfaces), is_over: AtomicBool::new(false) });
         let theirs = shared.clone();
         let work = move || {
-            let worked = catch_unwind(AssertUnwindSafe(|| fill(&theirs, &poses, (template, ground), between, &wake)));
+            let worked =
+                catch_unwind(AssertUnwindSafe(|| fill(&theirs, (&poses, n_ways), (template, ground), between, &wake)));
             let failure = match worked {
                 Ok(outcome) => outcome.err(),
                 Err(_) => Some("it stopped unexpectedly; please report it".into()),
@@ -113,15 +126,15 @@ impl Shared {
     }
 }
 
-/// Surfaces between two of so many poses, of so many vertices each.
-fn between(n_poses: usize, n_vertices: usize) -> usize {
+/// Surfaces on each of so many ways between so many poses, of so many vertices each.
+fn between((n_poses, n_ways): (usize, usize), n_vertices: usize) -> usize {
     let affordable = BUDGET_BYTES / (n_vertices.max(1) * BYTES_PER_VERTEX);
-    (affordable.saturating_sub(n_poses) / n_poses.saturating_sub(1).max(1)).clamp(1, BETWEEN)
+    (affordable.saturating_sub(n_poses) / n_ways.max(1)).clamp(1, BETWEEN)
 }
 
 fn fill(
     shared: &Shared,
-    poses: &[KeptPose],
+    (poses, n_ways): (&[KeptPose], usize),
     (template, ground): (SolveRequest, Option<Arc<Groundwork>>),
     between: usize,
     wake: &dyn Fn(),
@@ -134,13 +147,13 @@ fn fill(
         shared.put(k * (between + 1), Arc::new(ground.frame(&pose)));
     }
     wake();
-    for (k, pair) in poses.windows(2).enumerate() {
+    for k in 0..n_ways {
         let first = k * (between + 1) + 1;
         let mut put = |number: usize, solved: super::Solved| {
             shared.put(first + number, solved.frame);
             wake();
         };
-        let segment = Segment::new(&pair[0], &pair[1]);
+        let segment = Segment::new(&poses[k], &poses[(k + 1) % poses.len()]);
         if inbetweens((&ground, &template), &segment, between, &|| shared.goes_on(), &mut put)?.is_none() {
             break;
         }

@@ -15,7 +15,7 @@ mod solve;
 mod tests;
 
 pub use export::{Canceled, Export, export};
-pub use frames::Frames;
+pub use frames::{Frames, Source};
 pub use motion::between;
 pub use plan::{Kind, MAX_BETWEEN, MAX_SIDE_PX, Plan, numbered};
 pub use player::{Player, Repeat};

@@ -63,6 +63,8 @@ pub struct Plan {
     pub seconds: f64,
     /// Whether a pose stays until the next comes, instead of turning into it.
     pub stepped: bool,
+    /// Whether the last pose goes on to the first.
+    pub closed: bool,
     /// Width and height of pictures.
     pub size: [u32; 2],
 }
@@ -73,9 +75,14 @@ pub const MAX_SIDE_PX: u32 = 8192;
 pub const MAX_BETWEEN: usize = 1439;
 
 impl Plan {
-    /// Frames of so many poses.
+    /// Frames of so many poses. In a loop the first one comes again behind the last; it is counted once.
     pub fn n_frames(&self, n_poses: usize) -> usize {
-        n_poses + n_poses.saturating_sub(1) * self.between
+        n_poses + n_ways(n_poses, self.closed) * self.between
+    }
+
+    /// The pose that comes behind another of so many.
+    pub fn next(&self, pose: usize, n_poses: usize) -> Option<usize> {
+        (pose < n_ways(n_poses, self.closed)).then(|| (pose + 1) % n_poses)
     }
 
     /// The files it writes, in order; those that a format writes beside them not counted.
@@ -89,10 +96,11 @@ impl Plan {
         }
     }
 
-    /// When each frame comes, in seconds.
+    /// When each frame comes, in seconds; in a loop, when the first comes again at last.
     pub fn times(&self, n_poses: usize) -> impl Iterator<Item = f64> + use<> {
         let step = self.seconds / (self.between + 1) as f64;
-        (0..self.n_frames(n_poses)).map(move |frame| frame as f64 * step)
+        let n = self.n_frames(n_poses) + usize::from(self.closed && n_poses > 1);
+        (0..n).map(move |frame| frame as f64 * step)
     }
 
     /// Why nothing can be written there, if so. `opened` is the file that must not be overwritten.
@@ -122,6 +130,11 @@ impl Plan {
     pub fn n_existing(&self, n_poses: usize) -> usize {
         self.files(n_poses).iter().filter(|file| file.exists()).count()
     }
+}
+
+/// Ways from one of so many poses to the next; of a loop, the one from the last to the first too.
+pub(super) fn n_ways(n_poses: usize, closed: bool) -> usize {
+    n_poses.saturating_sub(usize::from(!closed || n_poses < 2))
 }
 
 fn is_same(a: &Path, b: &Path) -> bool {

@@ -8,9 +8,11 @@ use crate::viewport::SurfaceFrame;
 /// What comes behind the last pose.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Repeat {
-    /// The first one.
+    /// The way from it to the first one.
     #[default]
     Loop,
+    /// The first one, at once.
+    Restart,
     /// The way back.
     PingPong,
     /// Nothing.
@@ -19,15 +21,31 @@ pub enum Repeat {
 
 impl Repeat {
     /// All, in the order of menus.
-    pub const ALL: [Repeat; 3] = [Repeat::Loop, Repeat::PingPong, Repeat::Once];
+    pub const ALL: [Repeat; 4] = [Repeat::Loop, Repeat::Restart, Repeat::PingPong, Repeat::Once];
 
     /// Its name.
     pub fn label(self) -> &'static str {
         match self {
             Repeat::Loop => "Loop",
+            Repeat::Restart => "Start over",
             Repeat::PingPong => "Back and forth",
             Repeat::Once => "Once",
         }
+    }
+
+    /// One sentence more.
+    pub fn tooltip(self) -> &'static str {
+        match self {
+            Repeat::Loop => "On from the last pose to the first, solved as between any two",
+            Repeat::Restart => "From the last pose at once to the first",
+            Repeat::PingPong => "The way back to the first pose",
+            Repeat::Once => "Stop at the last pose",
+        }
+    }
+
+    /// Whether there is a way from the last pose to the first.
+    pub fn is_closed(self) -> bool {
+        self == Repeat::Loop
     }
 }
 
@@ -76,19 +94,15 @@ impl Player {
         self.at / self.frames.per_pose() as f64
     }
 
-    /// The last position.
-    pub fn last_position(&self) -> f64 {
-        self.end() / self.frames.per_pose() as f64
-    }
-
     /// Goes to a position and stays there.
     pub fn seek(&mut self, position: f64) {
         self.is_playing = false;
         self.at = (position * self.frames.per_pose() as f64).clamp(0.0, self.end());
     }
 
+    /// The last place, in surfaces: in a loop it is the first one again.
     fn end(&self) -> f64 {
-        self.frames.len().saturating_sub(1) as f64
+        self.frames.len().saturating_sub(usize::from(!self.repeat.is_closed())) as f64
     }
 
     /// Lets so many seconds pass.
@@ -103,7 +117,8 @@ impl Player {
                 self.at = (self.at + way).min(end);
                 self.is_playing = self.at < end;
             }
-            Repeat::Loop => {
+            Repeat::Loop => self.at = (self.at + way) % end,
+            Repeat::Restart => {
                 // The last pose is seen as long as any other surface before the first comes again.
                 self.at = (self.at + way) % (end + 1.0);
             }
@@ -118,6 +133,7 @@ impl Player {
 
     /// The surface to show now: no two are blended.
     pub fn surface(&self) -> Option<Arc<SurfaceFrame>> {
-        self.frames.surface(self.at.round().min(self.end()) as usize)
+        let number = self.at.round().min(self.end()) as usize;
+        self.frames.surface(number % self.frames.len().max(1))
     }
 }

@@ -107,7 +107,7 @@ fn a_group_placed_anew_still_turns_as_one_piece() {
 }
 
 fn plan(kind: Kind, to: &str, between: usize) -> Plan {
-    Plan { kind, to: PathBuf::from(to), between, seconds: 0.5, stepped: false, size: [64, 48] }
+    Plan { kind, to: PathBuf::from(to), between, seconds: 0.5, stepped: false, closed: false, size: [64, 48] }
 }
 
 #[test]
@@ -119,6 +119,20 @@ fn files_of_a_sequence_are_numbered_before_their_ending() {
     assert_eq!(files[6], Path::new("walk.0007.ply"));
     let times: Vec<f64> = plan(Kind::Animation, "walk.glb", 1).times(3).collect();
     assert_eq!(times, [0.0, 0.25, 0.5, 0.75, 1.0]);
+}
+
+#[test]
+fn a_loop_has_a_way_back_to_the_first_pose_which_is_no_further_file() {
+    let looped = |n_poses| {
+        let plan = Plan { closed: true, ..plan(Kind::Animation, "walk.glb", 1) };
+        let next: Vec<Option<usize>> = (0..n_poses).map(|pose| plan.next(pose, n_poses)).collect();
+        (plan.n_frames(n_poses), plan.times(n_poses).count(), next)
+    };
+    assert_eq!(looped(3), (6, 7, vec![Some(1), Some(2), Some(0)]));
+    assert_eq!(looped(2), (4, 5, vec![Some(1), Some(0)]));
+    assert_eq!(looped(1), (1, 1, vec![None]), "a single pose has nowhere to go");
+    assert_eq!(looped(0), (0, 0, vec![]));
+    assert_eq!(plan(Kind::Animation, "walk.glb", 1).next(2, 3), None);
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use super::*;
 use glam::DAffine3;
 use pliant::document::{KeptPose, PoseChange, PoseId};
-use pliant::posing::{Kind, Plan};
+use pliant::posing::{Kind, Plan, Repeat};
 
 fn names(session: &Session) -> Vec<&str> {
     session.poses().iter().map(|kept| kept.name.as_str()).collect()
@@ -130,8 +130,72 @@ fn playing_shows_the_poses_and_what_lies_between_without_touching_the_document()
     assert!(session.player().is_none(), "an edit ends it");
 }
 
+#[test]
+fn a_loop_goes_on_from_the_last_pose_to_the_first_and_a_play_can_be_told_to_stop_there() {
+    let mut session = with_poses(&[0.1, 0.4, 0.2]);
+    let all =
+        |session: &Session| session.player().is_some_and(|player| player.frames().n_solved() == player.frames().len());
+    let handle = kept(&session, 1).groups[1].vertices[0].index();
+    session.toggle_play();
+    wait_until(&mut session, "all surfaces are solved", all);
+    assert_eq!(session.last_place(), 3.0);
+    for (place, expected) in [(2.0, 0.2), (2.5, 0.15), (3.0, 0.1), (9.0, 0.1)] {
+        session.seek(place);
+        let got = session.played().expect("a surface").positions[handle].z;
+        // Single precision of coordinates below 1.
+        assert!((got - expected).abs() < 1e-6, "at {place} the handle is at height {got}, expected {expected}");
+    }
+    session.seek(2.75);
+    session.toggle_play();
+    session.advance_play(0.5);
+    let position = |session: &Session| session.player().expect("a play").position();
+    assert!((position(&session) - 0.25).abs() < 1e-9, "behind the last pose it is at {}", position(&session));
+    session.set_pace(Repeat::Once, 1.0);
+    assert_eq!((session.last_place(), position(&session)), (2.0, 0.25), "another pace loses the place");
+    session.advance_play(5.0);
+    assert_eq!(position(&session), 2.0);
+    session.set_pace(Repeat::Restart, 1.0);
+    session.seek(9.0);
+    assert_eq!(position(&session), 2.0);
+}
+
+#[test]
+fn a_looped_animation_ends_with_the_pose_it_began_with() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let mut session = with_poses(&[0.1, 0.4]);
+    let to = folder.path().join("poses.glb");
+    exported(&mut session, Plan { closed: true, ..plan(Kind::Animation, to.clone(), 1) });
+    let theirs = gltf::Gltf::open(&to).expect("the gltf crate reads it");
+    let blob = theirs.blob.clone().expect("a chunk");
+    let animation = theirs.animations().next().expect("an animation");
+    let reader = animation.channels().next().expect("a channel").reader(|_| Some(&blob));
+    let times: Vec<f32> = reader.read_inputs().expect("times").collect();
+    assert_eq!(times, [0.0, 0.25, 0.5, 0.75, 1.0]);
+    let Some(gltf::animation::util::ReadOutputs::MorphTargetWeights(weights)) = reader.read_outputs() else {
+        panic!("the channel is not one of weights");
+    };
+    let weights: Vec<f32> = weights.into_f32().collect();
+    assert_eq!(weights.len(), 5 * 4, "four shapes, five keys");
+    assert_eq!(weights[..4], [1.0, 0.0, 0.0, 0.0]);
+    assert_eq!(weights[16..], weights[..4]);
+    assert_eq!(weights[12..16], [0.0, 0.0, 0.0, 1.0], "half way back");
+}
+
+#[test]
+fn closing_the_window_stops_an_export_and_leaves_nothing_of_it() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let mut session = with_poses(&[0.1, 0.4]);
+    for kind in [Kind::Meshes, Kind::Animation] {
+        let ending = if kind == Kind::Meshes { "ply" } else { "glb" };
+        session.export_poses(plan(kind, folder.path().join(format!("walk.{ending}")), 1000), None);
+        std::thread::sleep(Duration::from_millis(30));
+        session.end();
+        assert!(names_in(folder.path()).is_empty(), "left behind: {:?}", names_in(folder.path()));
+    }
+}
+
 fn plan(kind: Kind, to: std::path::PathBuf, between: usize) -> Plan {
-    Plan { kind, to, between, seconds: 0.5, stepped: false, size: [64, 48] }
+    Plan { kind, to, between, seconds: 0.5, stepped: false, closed: false, size: [64, 48] }
 }
 
 fn exported(session: &mut Session, plan: Plan) {

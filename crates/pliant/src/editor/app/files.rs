@@ -83,6 +83,7 @@ impl EditorApp {
                     self.session.show(*opened, sample);
                 }
             }
+            Loss::Close if self.session.exporting_poses().is_some() => self.dialog = Dialog::Exporting,
             Loss::Close => {
                 self.may_close = true;
                 ctx.send_viewport_cmd(egui::ViewportCommand::Close);
@@ -164,7 +165,8 @@ impl EditorApp {
         }
     }
 
-    /// Asks before the window closes with unsaved changes, and lets a save that is under way come to its end.
+    /// Asks before the window closes with unsaved changes, lets a save that is under way come to its end, and asks before it
+    /// stops an export.
     pub(super) fn take_close(&mut self, ctx: &egui::Context) {
         if !ctx.input(|input| input.viewport().close_requested()) || self.may_close {
             return;
@@ -175,6 +177,9 @@ impl EditorApp {
         } else if self.session.document().is_some_and(|document| document.is_modified()) {
             ctx.send_viewport_cmd(egui::ViewportCommand::CancelClose);
             self.dialog = Dialog::Unsaved(Loss::Close);
+        } else if self.session.exporting_poses().is_some() {
+            ctx.send_viewport_cmd(egui::ViewportCommand::CancelClose);
+            self.dialog = Dialog::Exporting;
         }
     }
 

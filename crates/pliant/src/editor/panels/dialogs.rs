@@ -6,7 +6,7 @@ use egui::{Id, Key, Modal, RichText, TextEdit, Ui};
 
 use super::key_sheet::KeySheet;
 use super::palette::Palette;
-use super::{files, help};
+use super::{exporting, files, help};
 use crate::editor::{Action, Job, Sample, Session};
 use crate::project::Mesh;
 
@@ -52,6 +52,8 @@ pub(in crate::editor) enum Dialog {
     About,
     /// Unsaved changes would be lost.
     Unsaved(Loss),
+    /// Closing would stop an export of poses.
+    Exporting,
 }
 
 /// What would lose unsaved changes.
@@ -116,6 +118,7 @@ impl Dialog {
                 Dialog::Keys(sheet) => sheet.show(ui, session, &mut close),
                 Dialog::WhatIsRigidity => help::what_rigidity_is(ui, &mut close),
                 Dialog::About => help::about(ui, &mut close),
+                Dialog::Exporting => outcome = exporting::question(ui, session, &mut close),
                 Dialog::Unsaved(loss) => outcome = unsaved(ui, loss, session, &mut close),
             }
         });
@@ -240,7 +243,7 @@ mod tests {
         // A new kind does not compile here, to be listed below.
         match Dialog::None {
             Dialog::None | Dialog::Open { .. } | Dialog::Save { .. } | Dialog::Palette(_) => {}
-            Dialog::Export { .. } | Dialog::Mesh { .. } => {}
+            Dialog::Export { .. } | Dialog::Mesh { .. } | Dialog::Exporting => {}
             Dialog::Keys(_) | Dialog::WhatIsRigidity | Dialog::About | Dialog::Unsaved(_) => {}
         }
         let path = String::new();

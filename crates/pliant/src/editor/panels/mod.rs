@@ -1,6 +1,7 @@
 //! The parts of the window around the viewport. Each is a function of the session.
 
 mod dialogs;
+mod exporting;
 mod files;
 mod gizmo;
 mod handles;

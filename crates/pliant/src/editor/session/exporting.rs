@@ -4,6 +4,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, channel};
+use std::time::Duration;
 
 use super::Session;
 use crate::editor::NoticeKind;
@@ -29,7 +30,20 @@ impl Drop for Exporting {
     }
 }
 
+/// How long a window that closes waits for an export to clear away what it wrote: longer than any iteration of a mesh
+/// that is edited at all. What stays is cleared away by the next export to the same place.
+const CLEARING: Duration = Duration::from_secs(5);
+
 impl Session {
+    /// Stops an export that is under way and lets it clear away what it wrote.
+    pub(super) fn end_exporting(&mut self) {
+        if let Some(exporting) = self.exporting.take() {
+            exporting.is_over.store(true, Ordering::Relaxed);
+            // It answers when it is over.
+            let _ = exporting.outcome.recv_timeout(CLEARING);
+        }
+    }
+
     /// How far the export of the poses is, from 0 to 1, while there is one.
     pub fn exporting_poses(&self) -> Option<f64> {
         self.exporting.as_ref().map(|exporting| f64::from_bits(exporting.done.load(Ordering::Relaxed)))

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::Session;
 use crate::document::KeptPose;
 use crate::editor::NoticeKind;
-use crate::posing::{Frames, Player, Repeat};
+use crate::posing::{self, Frames, Player, Repeat};
 use crate::solving::SolveRequest;
 use crate::viewport::SurfaceFrame;
 
@@ -74,10 +74,30 @@ impl Session {
     /// Changes them.
     pub fn set_pace(&mut self, repeat: Repeat, seconds: f64) {
         let seconds = seconds.clamp(*Player::SECONDS.start(), *Player::SECONDS.end());
-        (self.playing.repeat, self.playing.seconds) = (repeat, seconds);
-        if let Some((player, _)) = &mut self.playing.player {
+        let was_closed = std::mem::replace(&mut self.playing.repeat, repeat).is_closed();
+        self.playing.seconds = seconds;
+        if was_closed != repeat.is_closed() {
+            self.play_anew();
+        } else if let Some((player, _)) = &mut self.playing.player {
             (player.repeat, player.seconds) = (repeat, seconds);
         }
+    }
+
+    /// Goes on where the play is, with other surfaces.
+    fn play_anew(&mut self) {
+        let Some((before, _)) = self.playing.player.take() else { return };
+        if let Some(player) = self.ready_player() {
+            player.seek(before.position());
+            if before.is_playing() {
+                player.toggle();
+            }
+        }
+    }
+
+    /// The last place that can be shown: counted as poses are, from 0.
+    pub fn last_place(&self) -> f64 {
+        let n = self.poses().len();
+        (if self.playing.repeat.is_closed() { n } else { n.saturating_sub(1) }) as f64
     }
 
     /// Lets time pass; whether the picture moves.
@@ -114,7 +134,9 @@ impl Session {
             let template = SolveRequest::of(document, None);
             let ground = self.status.report.as_ref().and_then(|report| report.ground.upgrade());
             let wake = self.wake.clone();
-            match Frames::start(poses.clone(), template, ground, move || wake()) {
+            let closed = self.playing.repeat.is_closed();
+            let source = posing::Source { poses: poses.clone(), template, ground, closed };
+            match Frames::start(source, move || wake()) {
                 Ok(frames) => {
                     let player = Player::new(frames, self.playing.repeat, self.playing.seconds);
                     self.playing.player = Some((player, Source { revision, poses }));

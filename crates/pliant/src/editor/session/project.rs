@@ -65,8 +65,9 @@ impl Session {
         self.autosave.as_ref().map(Autosave::path)
     }
 
-    /// The window closes in order: what lasts is written, and no autosave is left. Waits for both.
+    /// The window closes in order: what lasts is written, no autosave is left, and nothing of an export. Waits for all.
     pub fn end(&mut self) {
+        self.end_exporting();
         self.note_preferences();
         if let Some(changes) = self.preferences.take_changes() {
             changes.write();

@@ -26,6 +26,8 @@ pub(super) enum Wish {
 /// How a card stands among the others.
 #[derive(Clone, Copy)]
 pub(super) struct State {
+    /// The keys are for it from now on.
+    pub(super) is_wanted: bool,
     pub(super) is_shown: bool,
     pub(super) is_chosen: bool,
     pub(super) place: usize,
@@ -38,12 +40,18 @@ pub(super) fn show(
     picture: Option<TextureId>,
     state: State,
     renaming: &mut Option<(PoseId, String)>,
-) -> Option<Wish> {
+) -> (Response, Option<Wish>) {
     let size = vec2(PICTURE[0] as f32, PICTURE[1] as f32 + NAME);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
     response
         .widget_info(|| WidgetInfo::selected(egui::Role::Button, true, state.is_shown, format!("Show {}", kept.name)));
     let top = Rect::from_min_size(rect.min, vec2(rect.width(), PICTURE[1] as f32));
+    if state.is_wanted {
+        response.request_focus();
+    }
+    if response.gained_focus() {
+        response.scroll_to_me(None);
+    }
     paint(ui, &response, (rect, top), picture, state);
     let below = Rect::from_min_max(pos2(rect.left(), top.bottom()), rect.max);
     let named = match renaming {
@@ -53,7 +61,8 @@ pub(super) fn show(
             None
         }
     };
-    named.or_else(|| wish(ui, rect, response, kept, state))
+    let wish = named.or_else(|| wish(ui, rect, response.clone(), kept, state));
+    (response, wish)
 }
 
 fn wish(ui: &Ui, rect: Rect, response: Response, kept: &KeptPose, state: State) -> Option<Wish> {
@@ -71,7 +80,8 @@ fn wish(ui: &Ui, rect: Rect, response: Response, kept: &KeptPose, state: State) 
         wish = Some(Wish::Show(kept.id));
     }
     let response = response.on_hover_text(format!(
-        "{}\nClick: back to this pose. Double click: another name. Drag: another place",
+        "{}\nClick, Enter: back to this pose. Double click, F2: another name. Drag, Ctrl+arrows: another place. Del: off the \
+         strip",
         kept.name
     ));
     response.context_menu(|ui| {

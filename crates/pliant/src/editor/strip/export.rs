@@ -38,6 +38,7 @@ impl Question {
                 between: 11,
                 seconds: session.pace().1,
                 stepped: false,
+                closed: session.pace().0.is_closed(),
                 size: [1280, 720],
             },
             path: String::new(),
@@ -70,7 +71,10 @@ impl Question {
             let entered = self.path(ui);
             self.plan.to = PathBuf::from(self.path.trim());
             ui.add_space(4.0);
-            Grid::new("export").num_columns(2).spacing([16.0, 6.0]).show(ui, |ui| self.numbers(ui));
+            Grid::new("export")
+                .num_columns(2)
+                .spacing([16.0, 6.0])
+                .show(ui, |ui| self.numbers(ui, session.poses().len()));
             ui.add_space(4.0);
             let n_poses = session.poses().len();
             let opened = session.document().and_then(|document| document.model().file.path.clone());
@@ -119,8 +123,22 @@ impl Question {
         .inner
     }
 
-    fn numbers(&mut self, ui: &mut Ui) {
+    fn numbers(&mut self, ui: &mut Ui, n_poses: usize) {
         let plan = &mut self.plan;
+        row(ui, "Behind the last pose", |ui| {
+            let words = |closed: bool| if closed { "On to the first" } else { "Nothing" };
+            ui.add_enabled_ui(n_poses > 1, |ui| {
+                let combo = ComboBox::from_id_salt("behind the last").selected_text(words(plan.closed && n_poses > 1));
+                let combo = combo.show_ui(ui, |ui| {
+                    ui.selectable_value(&mut plan.closed, true, words(true));
+                    ui.selectable_value(&mut plan.closed, false, words(false));
+                });
+                combo
+                    .response
+                    .on_hover_text("A loop goes on from the last pose to the first, and can be repeated without a jump")
+                    .on_disabled_hover_text("Keep two poses or more to go from one to another");
+            });
+        });
         row(ui, "Frames between poses", |ui| {
             let field = DragValue::new(&mut plan.between).range(0..=MAX_BETWEEN).speed(0.1);
             ui.add(field).on_hover_text(

@@ -2,6 +2,7 @@
 
 mod card;
 mod export;
+mod keys;
 mod playing;
 mod thumbnails;
 
@@ -24,6 +25,9 @@ pub(super) struct StripView {
     /// The name being typed.
     renaming: Option<(PoseId, String)>,
     question: Option<Question>,
+    /// The card that had the focus in the last frame, and the pose whose card is to have it next.
+    focused: Option<(egui::Id, PoseId)>,
+    wanted: Option<PoseId>,
 }
 
 impl StripView {
@@ -104,11 +108,20 @@ impl StripView {
         let shown = session.document().and_then(|document| document.scene().pose_shown()).map(|kept| kept.id);
         let marked = session.chosen_pose().map(|kept| kept.id);
         let mut wish = None;
+        let (wanted, mut focused) = (self.wanted.take(), None);
         for (place, kept) in poses.iter().enumerate() {
             let picture = self.thumbnails.picture_of(ui.ctx(), kept, session, viewport);
-            let state = card::State { is_shown: shown == Some(kept.id), is_chosen: marked == Some(kept.id), place };
-            wish = card::show(ui, kept, picture, state, &mut self.renaming).or(wish);
+            let is = |id: Option<PoseId>| id == Some(kept.id);
+            let (is_wanted, is_shown, is_chosen) = (is(wanted), is(shown), is(marked));
+            let state = card::State { is_wanted, is_shown, is_chosen, place };
+            let (response, wished) = card::show(ui, kept, picture, state, &mut self.renaming);
+            wish = wished.or(wish);
+            if response.has_focus() || is_wanted {
+                keys::keep_arrows(ui.ctx(), response.id);
+                focused = Some((response.id, kept.id));
+            }
         }
+        self.focused = focused;
         match wish {
             Some(card::Wish::Show(id)) => session.show_pose(id),
             Some(card::Wish::Change(change)) => session.apply(Command::Poses(change)),
@@ -117,10 +130,10 @@ impl StripView {
                 self.renaming = name.map(|name| (id, name));
             }
             Some(card::Wish::Named(id, name)) => {
-                self.renaming = None;
+                (self.renaming, self.wanted) = (None, Some(id));
                 session.apply(Command::Poses(PoseChange::Rename(id, name)));
             }
-            Some(card::Wish::NotNamed) => self.renaming = None,
+            Some(card::Wish::NotNamed) => self.wanted = self.renaming.take().map(|(id, _)| id),
             None => {}
         }
     }

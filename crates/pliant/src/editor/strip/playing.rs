@@ -20,7 +20,7 @@ pub(super) fn controls(ui: &mut Ui, session: &mut Session, chosen: &mut Vec<Acti
     let (mut repeat, mut seconds) = session.pace();
     let combo = ComboBox::from_id_salt("repeat").width(104.0).selected_text(repeat.label()).show_ui(ui, |ui| {
         for other in Repeat::ALL {
-            ui.selectable_value(&mut repeat, other, other.label());
+            ui.selectable_value(&mut repeat, other, other.label()).on_hover_text(other.tooltip());
         }
     });
     combo.response.on_hover_text("What comes behind the last pose");
@@ -34,7 +34,7 @@ pub(super) fn controls(ui: &mut Ui, session: &mut Session, chosen: &mut Vec<Acti
 
 fn scrub(ui: &mut Ui, session: &mut Session) {
     let obstacle = session.play_obstacle();
-    let last = session.poses().len().saturating_sub(1).max(1) as f64;
+    let last = session.last_place().max(1.0);
     // Counted from 1, as poses are.
     let mut place = session.player().map_or(0.0, Player::position) + 1.0;
     // Narrower than usual, so that the row fits into a window of common size.

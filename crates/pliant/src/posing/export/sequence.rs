@@ -7,6 +7,7 @@ use std::path::Path;
 
 use pliant_meshfile::SaveOptions;
 
+use super::staging::Staging;
 use super::{Canceled, Export, Progress, each_frame, rigidity};
 use crate::posing::Solved;
 use crate::viewport::{Headless, Renderer, ViewScene};
@@ -66,7 +67,7 @@ fn staged(
     let files = work.plan.files(work.poses.len());
     let folder = work.plan.to.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let failed = |error: std::io::Error| format!("{}: cannot be written: {error}", folder.display());
-    let staging = tempfile::Builder::new().prefix(".poses-").tempdir_in(folder).map_err(failed)?;
+    let staging = Staging::new(folder).map_err(failed)?;
     let mut failure = None;
     let mut frame = |number: usize, solved: Solved| {
         let name = files[number].file_name().unwrap_or_default();
@@ -86,8 +87,7 @@ fn staged(
         return Ok(Err(Canceled));
     }
     // What lies beside a file comes before it, so that none is ever there without.
-    let listed = std::fs::read_dir(staging.path()).map_err(failed)?;
-    let mut names: Vec<OsString> = listed.flatten().map(|entry| entry.file_name()).collect();
+    let mut names = staging.names().map_err(failed)?;
     let is_main = |name: &OsString| files.iter().any(|file| file.file_name() == Some(name));
     names.sort_by_key(|name| (is_main(name), name.clone()));
     for name in names {
