@@ -1,12 +1,14 @@
 //! Developer commands: `cargo xtask test` runs every test, `cargo xtask assets` makes the samples anew, `cargo xtask
-//! guide` draws the pictures of the guide, `cargo xtask validate` asks the glTF validator, `cargo xtask bench` measures,
-//! `cargo xtask corpus` tries mesh files that people have.
+//! guide` draws the pictures of the guide, `cargo xtask gallery` redraws the paper's figures, `cargo xtask validate` asks the
+//! glTF validator, `cargo xtask bench` measures, `cargo xtask corpus` tries mesh files that people have.
 
 mod assets;
 mod bench;
 mod corpus;
 mod failure;
+mod gallery;
 mod guide;
+mod program;
 mod shapes;
 mod testing;
 mod validating;
@@ -40,6 +42,12 @@ enum Task {
     },
     /// Draw the pictures of docs/guide.md anew
     Guide,
+    /// Redraw the paper's figures in docs/gallery, and say which of its claims hold
+    Gallery {
+        /// Only look whether the page that is there is whole
+        #[arg(long)]
+        check: bool,
+    },
     /// Hold what is saved as glTF against the Khronos Group's validator (needs node and npm)
     Validate {
         /// Mesh files to save, instead of the samples and the test data
@@ -59,6 +67,7 @@ fn main() -> ExitCode {
         Task::Test { filter } => testing::run(&filter),
         Task::Assets { check } => assets::run(check),
         Task::Guide => guide::run(),
+        Task::Gallery { check } => gallery::run(check),
         Task::Validate { files } => validating::run(&files),
         Task::Bench(options) => bench::run(&options),
         Task::ProbeMemory(probe) => bench::probe(probe),
