@@ -46,6 +46,19 @@ pub(crate) struct Times {
     pub(crate) total: Duration,
 }
 
+impl Times {
+    /// The shorter time of either run, stage by stage.
+    pub(crate) fn fastest(&self, other: &Times) -> Times {
+        Times {
+            neighborhoods: self.neighborhoods.min(other.neighborhoods),
+            factor: self.factor.min(other.factor),
+            global: self.global.min(other.global),
+            local: self.local.min(other.local),
+            total: self.total.min(other.total),
+        }
+    }
+}
+
 /// As in the paper: raw cotangents, global and local steps in turn, until the energy falls by less than γ.
 pub(crate) fn as_in_the_paper(posing: &Posing, rigidity: &Rigidity) -> Result<(Bent, Times), Failure> {
     let analysis = Arc::new(Analysis::new(posing.mesh.clone(), Weights::Cotangent));

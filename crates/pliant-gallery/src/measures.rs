@@ -100,3 +100,37 @@ impl<'a> Hinges<'a> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A tetrahedron with a corner at the origin.
+    fn corner() -> Mesh {
+        let points = vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
+        Mesh::new(points, vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]).expect("valid")
+    }
+
+    #[test]
+    fn what_only_grew_is_stretched_and_not_bent() {
+        let mesh = corner();
+        let grown: Vec<DVec3> = mesh.positions().iter().map(|&p| 1.1 * p + DVec3::ONE).collect();
+        let hinges = Hinges::new(&mesh);
+        assert!((hinges.stretch(&grown) - 0.1).abs() < 1e-12, "{}", hinges.stretch(&grown));
+        assert!(hinges.bending(&grown) < 1e-9, "{}", hinges.bending(&grown));
+        assert!((volume_ratio(&mesh, &grown) - 1.331).abs() < 1e-12);
+        // Between two sides through the corner a right angle; to the fourth side 125.3°.
+        assert!((hinges.sharpest(&grown) - 125.264).abs() < 1e-3, "{}", hinges.sharpest(&grown));
+        assert!((hinges.within(|v| v != 3).sharpest(&grown) - 125.264).abs() < 1e-3);
+        assert_eq!(hinges.within(|v| v == 0).stretch(&grown), 0.0, "no edges");
+    }
+
+    #[test]
+    fn the_largest_tenth_has_all_or_its_part() {
+        assert_eq!(share_of_largest_tenth(&[1.0; 20]), 0.1);
+        let mut one = [0.0; 20];
+        one[7] = 3.0;
+        assert_eq!(share_of_largest_tenth(&one), 1.0);
+        assert_eq!(share_of_largest_tenth(&[]), 0.1);
+    }
+}

@@ -89,7 +89,11 @@ pub(crate) struct PoseSet {
     pub(crate) bone: Vec<Option<usize>>,
     /// For every vertex the number of edges to the nearest vertex inside a joint.
     pub(crate) rings: Vec<u16>,
-    pub(crate) bones: Vec<String>,
+    /// For every vertex the number of that vertex's joint.
+    joint: Vec<usize>,
+    bones: Vec<String>,
+    /// For every joint the names of its two bones.
+    joints: Vec<[String; 2]>,
 }
 
 impl PoseSet {
@@ -102,7 +106,9 @@ impl PoseSet {
             poses: Vec::new(),
             bone: Vec::new(),
             rings: Vec::new(),
+            joint: Vec::new(),
             bones: Vec::new(),
+            joints: Vec::new(),
         };
         for found in Poses::of_reference(&file, PoseOptions::default())? {
             if let Found::Pose(pose) = found? {
@@ -114,8 +120,10 @@ impl PoseSet {
         set.bones = truth.list("bones", |name| name.as_str().map(str::to_owned))?;
         set.bone = truth.list("bone", |bone| bone.as_i64().map(|bone| usize::try_from(bone).ok()))?;
         set.rings = truth.list("rings", |rings| rings.as_u64().map(|rings| rings.min(1000) as u16))?;
+        set.joint = truth.list("joint", |joint| joint.as_u64().and_then(|joint| usize::try_from(joint).ok()))?;
+        set.joints = truth.list("joints", |joint| serde_json::from_value(joint["between"].clone()).ok())?;
         let n = set.mesh.n_vertices();
-        if set.poses.len() != set.names.len() || set.bone.len() != n || set.rings.len() != n {
+        if set.poses.len() != set.names.len() || [set.bone.len(), set.rings.len(), set.joint.len()] != [n; 3] {
             return Err(truth.fault("it does not fit the mesh"));
         }
         Ok(set)
@@ -130,10 +138,21 @@ impl PoseSet {
             }
         }
         let is_held = |v: usize| {
-            let bone = self.bone[v].filter(|&bone| bones.contains(&self.bones[bone].as_str()));
+            let bone = self.bone[v].filter(|_| self.is_in_bone(v, bones));
             bone.is_some_and(|bone| f64::from(self.rings[v]) >= DEEP * f64::from(deepest[bone]))
         };
         Posing::new(self.mesh.clone(), |v, _| is_held(v).then(|| pose[v]))
+    }
+
+    /// Whether a vertex is inside a joint that carries one of these bones.
+    pub(crate) fn is_in_joint_of(&self, v: usize, bones: &[&str]) -> bool {
+        let carried = self.joints.get(self.joint[v]).map(|[_, bone]| bone.as_str());
+        self.bone[v].is_none() && carried.is_some_and(|bone| bones.contains(&bone))
+    }
+
+    /// Whether a vertex moves with one of these bones.
+    pub(crate) fn is_in_bone(&self, v: usize, bones: &[&str]) -> bool {
+        self.bone[v].is_some_and(|bone| bones.contains(&self.bones[bone].as_str()))
     }
 
     /// The pose of this name.
@@ -193,4 +212,38 @@ impl Json {
 
 fn read(path: &Path) -> Result<String, Failure> {
     std::fs::read_to_string(path).map_err(|source| Failure::File { path: path.to_owned(), source })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_bow_of_an_arc_is_its_sagitta() {
+        let bar = Bar::open("thin-bar").expect("a sample");
+        let (angle, radius) = (2.0_f64, bar.length / 2.0);
+        let bent: Vec<DVec3> = bar
+            .mesh
+            .positions()
+            .iter()
+            .map(|p| {
+                let (sin, cos) = (p.x / radius).sin_cos();
+                DVec3::new((radius - p.y) * sin, radius - (radius - p.y) * cos, p.z)
+            })
+            .collect();
+        let (got, expected) = (bar.bow(&bent, [0.0, 1.0]), (1.0 - (angle / 2.0).cos()) / angle);
+        // The middle line is half a unit nearer to the center than the line that keeps its length.
+        assert!((got - expected).abs() < 0.5 / radius, "{got}, expected {expected}");
+        assert!(bar.bow(bar.mesh.positions(), [0.2, 0.8]) < 1e-6, "at rest");
+    }
+
+    #[test]
+    fn pose_sets_say_what_moves_with_what() {
+        let set = PoseSet::open("gecko").expect("a sample");
+        let knees = (0..set.bone.len()).filter(|&v| set.is_in_joint_of(v, &["left shin"])).count();
+        assert!(knees > 10, "{knees} vertices");
+        let held = set.held_by(&["head"], set.pose("stand").expect("a pose")).held;
+        assert!(held.iter().all(|v| set.is_in_bone(v.index(), &["head"])) && held.len() > 10);
+        assert!(set.pose("handstand").is_err());
+    }
 }

@@ -17,6 +17,9 @@ pub(crate) const HOLDS: &str = "**Holds.**";
 pub(crate) const FAILS: &str = "**Does not hold here.**";
 /// Widest row of pictures on the page, in pixels: fits the column in which forges show a page.
 const PAGE_WIDTH: usize = 840;
+/// Up to so many pictures stand in one row; more are set in rows of the usual length, large enough to see something.
+const MOST_IN_A_ROW: usize = 4;
+const IN_A_ROW: usize = 3;
 
 /// The folder that is filled.
 pub(crate) struct Folder {
@@ -79,6 +82,7 @@ fn encode(picture: &RgbaImage) -> Result<Vec<u8>, image::ImageError> {
 }
 
 /// A picture of a figure with what is written under it.
+#[derive(Clone)]
 pub(crate) struct Panel {
     pub(crate) file: String,
     pub(crate) caption: String,
@@ -128,7 +132,8 @@ impl Figure {
     fn to_markdown(&self) -> String {
         let Figure { number, title, claim, setup, rows, table, checks, data } = self;
         let mut text = format!("## {number}: {title}\n\n*The paper:* {claim}\n\n*Here:* {setup}\n\n");
-        rows.iter().for_each(|row| text.push_str(&row_of(row)));
+        let in_a_row = |row: &[Panel]| if row.len() > MOST_IN_A_ROW { IN_A_ROW } else { MOST_IN_A_ROW };
+        rows.iter().flat_map(|row| row.chunks(in_a_row(row))).for_each(|row| text.push_str(&row_of(row)));
         text.push_str(table);
         for check in checks {
             // A string takes whatever is written to it.
@@ -145,7 +150,7 @@ impl Figure {
 
 /// Pictures side by side, their captions under them.
 fn row_of(row: &[Panel]) -> String {
-    let width = (PAGE_WIDTH / row.len().max(1)).min(420) - 12;
+    let width = PAGE_WIDTH / IN_A_ROW.max(row.len()) - 12;
     let mut text = String::from("<table><tr>\n");
     for Panel { file, caption } in row {
         let size = if file.ends_with(".svg") { String::new() } else { format!(" width=\"{width}\"") };
@@ -159,12 +164,10 @@ fn row_of(row: &[Panel]) -> String {
 /// The whole page.
 pub(crate) fn page(figures: &[Figure], foot: &str) -> String {
     let n_checks: usize = figures.iter().map(|figure| figure.checks.len()).sum();
-    let failing: Vec<&str> =
-        figures.iter().filter(|figure| figure.checks.iter().any(|check| !check.holds)).map(|f| f.number).collect();
-    let n_failing = figures.iter().flat_map(|figure| &figure.checks).filter(|check| !check.holds).count();
-    let verdict = match n_failing {
+    let failing: Vec<String> = figures.iter().flat_map(failures).collect();
+    let verdict = match failing.len() {
         0 => format!("All {n_checks} statements hold."),
-        n => format!("Of {n_checks} statements {n} do not hold here (under {}).", failing.join(", ")),
+        n => format!("Of {n_checks} statements {n} do not hold here:\n\n{}", failing.join("\n")),
     };
     let list: Vec<String> = figures.iter().map(|f| format!("[{}](#{})", f.number, anchor(f))).collect();
     let body: String = figures.iter().map(Figure::to_markdown).collect();
@@ -172,6 +175,25 @@ pub(crate) fn page(figures: &[Figure], foot: &str) -> String {
         "# The paper's figures, redrawn\n\n{INTRODUCTION}\n\n{verdict}\n\n{}\n\n{body}---\n\n{foot}\n",
         list.join(" · ")
     )
+}
+
+/// The statements of a figure that do not hold, as lines of a list.
+fn failures(figure: &Figure) -> Vec<String> {
+    let line = |check: &Check| format!("- [{}](#{}): {}", figure.number, anchor(figure), check.claim);
+    figure.checks.iter().filter(|check| !check.holds).map(line).collect()
+}
+
+/// A count with separated thousands.
+pub(crate) fn count(n: usize) -> String {
+    let plain = n.to_string();
+    let mut text = String::new();
+    for (place, digit) in plain.chars().enumerate() {
+        if place > 0 && (plain.len() - place).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
 }
 
 /// What comes before the figures.

@@ -21,12 +21,16 @@ const PAPER: [Row; 5] = [
 ];
 /// The sizes whose curves figure 4 shows.
 const CURVES: [u16; 3] = [1, 2, 10];
+/// Runs of which table 1 has the fastest times.
+const REPETITIONS: usize = 5;
 /// The sizes of figure 5.
 const LARGEST: u16 = 10;
 
 pub(crate) fn figure(into: &mut Folder) -> Result<Figure, Failure> {
-    let thin = runs(&Bar::open("thin-bar")?.arc(180.0))?;
+    let bar = Bar::open("thin-bar")?;
+    let thin = runs(&bar.arc(180.0))?;
     let thick = runs(&Bar::open("bar")?.arc(170.0))?;
+    let thin = with_quiet_times(thin, &bar.arc(180.0))?;
     let panels = vec![energy_chart(into, &thin)?, iterations_chart(into, &thin, &thick)?];
     let counts: Vec<usize> = thin.iter().map(|(run, _)| run.n_iterations()).collect();
     let at = |r: u16| &thin[usize::from(r) - 1];
@@ -45,7 +49,7 @@ pub(crate) fn figure(into: &mut Folder) -> Result<Figure, Failure> {
                 iteration takes longer (table 1).",
         setup: "the paper names 1,154 vertices for its example, not its shape. A thin bar with so many (2 × 2 × 143 cells), bent to a \
                 half circle, comes near its iterations; the thicker bar of figure 3, bent by 170°, needs fewer. Raw cotangent weights, plain \
-                iteration, γ = 10⁻³. Table 1 has times of one run on the machine named at the foot of this page, the paper's are of \
+                iteration, γ = 10⁻³. Table 1 has the best times of a few runs on the machine named at the foot of this page, the paper's are of \
                 an Intel i7-2600; all else is the same in every run."
             .to_owned(),
         rows: vec![panels],
@@ -70,7 +74,7 @@ pub(crate) fn figure(into: &mut Folder) -> Result<Figure, Failure> {
             Check::new(
                 "r = 10 takes less time than r = 1, all iterations together (paper: 0.64 of it)",
                 ratio < 1.0,
-                format!("{ratio:.2} of it in the run of the table"),
+                format!("{ratio:.2} of it in the table"),
             ),
         ],
         data: vec![energies_csv(into, &thin)?, iterations_csv(into, &counts, &thick_counts)?],
@@ -81,6 +85,19 @@ pub(crate) fn figure(into: &mut Folder) -> Result<Figure, Failure> {
 fn runs(posing: &Posing) -> Result<Vec<(Bent, Times)>, Failure> {
     let n = posing.mesh.n_vertices();
     (1..=LARGEST).map(|r| as_in_the_paper(posing, &Rigidity::uniform(n, r))).collect()
+}
+
+/// The same with the times of the fastest of some runs, for those in the table: what another program did meanwhile is no
+/// property of ours.
+fn with_quiet_times(mut thin: Vec<(Bent, Times)>, posing: &Posing) -> Result<Vec<(Bent, Times)>, Failure> {
+    for (r, ..) in PAPER {
+        let (_, times) = &mut thin[usize::from(r) - 1];
+        for _ in 0..REPETITIONS {
+            let (_, again) = as_in_the_paper(posing, &Rigidity::uniform(posing.mesh.n_vertices(), r))?;
+            *times = times.fastest(&again);
+        }
+    }
+    Ok(thin)
 }
 
 fn list(counts: &[usize]) -> String {

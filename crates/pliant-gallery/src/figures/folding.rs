@@ -72,7 +72,7 @@ pub(crate) fn figure(into: &mut Folder) -> Result<Figure, Failure> {
                 format!("{} pairs of triangles cross", found[0].0),
             ),
             Check::new(
-                "With r = 2 and r = 10 it does not",
+                "With r = 2 and r = 10 it does not cross itself",
                 found[1].0 == 0 && found[2].0 == 0,
                 format!("{} and {} pairs", found[1].0, found[2].0),
             ),
@@ -83,7 +83,7 @@ pub(crate) fn figure(into: &mut Folder) -> Result<Figure, Failure> {
                 shares.join(", "),
             ),
             Check::new(
-                "With r = 10 it is spread more evenly than with r = 2",
+                "Energy is spread more evenly with r = 10 than with r = 2",
                 found[2].1 < found[1].1,
                 format!("{} against {}", shares[2], shares[1]),
             ),

@@ -6,7 +6,7 @@ use pliant_solver::Rigidity;
 use super::contest::{self, Outcome, ring, rivals};
 use crate::failure::Failure;
 use crate::models::{self, Posing};
-use crate::page::{Check, Figure, Folder, Panel};
+use crate::page::{Check, Figure, Folder, Panel, count};
 use crate::shots::{Stage, View};
 
 const VIEW: View = View { yaw: 18.0, pitch: -10.0, roll: 0.0 };
@@ -46,8 +46,8 @@ pub(crate) fn figure(into: &mut Folder) -> Result<Figure, Failure> {
                 that are blended away; r = 6 has none.",
         setup: format!(
             "an arm of the cactus ({} vertices) is turned by {DEGREES}° and pulled down at once. SR-ARAP with α = 0.02, embedded \
-             deformation with 500 nodes.",
-            mesh.n_vertices()
+             deformation with 500 nodes, as everywhere on this page.",
+            count(mesh.n_vertices())
         ),
         rows: vec![panels],
         table: String::new(),
@@ -58,10 +58,11 @@ pub(crate) fn figure(into: &mut Folder) -> Result<Figure, Failure> {
 
 fn checks(ours: &Outcome, others: &[Outcome]) -> Vec<Check> {
     let is_clean = |o: &Outcome| o.crossings == 0 && o.sharpest < FOLD;
-    let state = |o: &Outcome| format!("{}: {} crossings, sharpest angle {:.0}°", o.name, o.crossings, o.sharpest);
-    let mut checks = vec![Check::new("With r = 6 nothing crosses and nothing folds over", is_clean(ours), state(ours))];
+    let state =
+        |o: &Outcome| format!("{} crossings, the sharpest angle between neighbors is {:.0}°", o.crossings, o.sharpest);
+    let mut checks = vec![Check::new("By r = 6 nothing crosses and nothing folds over", is_clean(ours), state(ours))];
     let of_other =
-        |o: &Outcome| Check::new(format!("With {} something crosses or folds over", o.name), !is_clean(o), state(o));
+        |o: &Outcome| Check::new(format!("By {} something crosses or folds over", o.name), !is_clean(o), state(o));
     checks.extend(others.iter().map(of_other));
     let bending: Vec<String> = others.iter().map(|o| format!("{:.2}° with {}", o.bending, o.name)).collect();
     checks.push(Check::new(

@@ -7,14 +7,14 @@ use super::contest::{self, Outcome, ring, rivals};
 use crate::failure::Failure;
 use crate::measures::{Hinges, distance};
 use crate::models::{self, PoseSet, Posing};
-use crate::page::{Check, Figure, Folder, Panel};
+use crate::page::{Check, Figure, Folder, Panel, count};
 use crate::shots::{Stage, View};
 
 /// What is painted so is bone, and so is joint.
 const BONE: u16 = 5;
 const JOINT: u16 = 2;
 /// The largest r that is painted: the paper's.
-const MOST: u16 = 6;
+pub(crate) const MOST: u16 = 6;
 
 /// A painted shape with handles.
 pub(crate) struct Limbs {
@@ -54,8 +54,8 @@ pub(crate) fn arm(into: &mut Folder) -> Result<Figure, Failure> {
     let sizes = models::painted("creature")?;
     let setup = format!(
         "the creature ({} vertices) with soles and head held, its raised hand turned by {degrees:.0}° about the elbow. r = 6 is painted \
-         on its bones, 1 at its joints.",
-        posing.mesh.n_vertices()
+         on its bones, 1 at its joints. Captions tell the bending of bones.",
+        count(posing.mesh.n_vertices())
     );
     let view = View { yaw: 12.0, pitch: -6.0, roll: 0.0 };
     let limbs = Limbs { posing, sizes, truth: None, view, pixels: 300 };
@@ -75,8 +75,9 @@ pub(crate) fn legs(into: &mut Folder) -> Result<Figure, Failure> {
     let setup = format!(
         "the gecko ({} vertices) is lifted onto its legs as in the pose *stand* of its file: patches of pelvis, head, tail tip and \
          of the four feet are where that pose has them, everything else is left to the method. r is painted by the distance from \
-         the nearest joint, from 1 to 6.",
-        set.mesh.n_vertices()
+         the nearest joint, from 1 to 6. Captions tell the mean distance of a vertex from its place in the pose, in diagonals of the \
+         bounding box.",
+        count(set.mesh.n_vertices())
     );
     let claim = "on a hand, fingers bend at their joints when these are painted soft; with ARAP the finger bends like rubber, \
                  and embedded deformation squeezes the thumb.";
@@ -90,8 +91,9 @@ pub(crate) fn pieces(into: &mut Folder) -> Result<Figure, Failure> {
     let limbs = of_set(&set, "zigzag", &["first", "third", "fifth"])?;
     let setup = format!(
         "a bar of five stiff pieces with four joints ({} vertices) in the pose *zigzag* of its file: patches in the middle of the \
-         first, third and fifth piece are where that pose has them. r is painted by the distance from the nearest joint, from 1 to 6.",
-        set.mesh.n_vertices()
+         first, third and fifth piece are where that pose has them. r is painted by the distance from the nearest joint, from 1 to 6. \
+         Captions as in figure 10.",
+        count(set.mesh.n_vertices())
     );
     let claim = "a further articulated shape: with ARAP, SR-ARAP and embedded deformation distortions like those of figures 9 \
                  and 10, with painted joints a natural result.";
@@ -124,6 +126,17 @@ fn draw(into: &mut Folder, limbs: &Limbs, words: Words) -> Result<Figure, Failur
     let mut panels = vec![first];
     panels.extend(contest::panels(into, prefix, &stage, posing, &list)?);
     let rows: Vec<Vec<String>> = outcomes.iter().zip(&verdicts).map(|(o, verdict)| verdict.row(o)).collect();
+    let data = vec![into.csv(prefix, &header(limbs.truth.is_some()), &rows)?];
+    let names: Vec<&str> = outcomes.iter().map(|o| o.name.as_str()).collect();
+    let checks = checks(&names, &verdicts);
+    Ok(Figure { number, title, claim, setup, rows: vec![panels], table: String::new(), checks, data })
+}
+
+/// The column of the table of a figure that has the bending of bones.
+pub(crate) const BENDING: usize = 4;
+
+/// The table's columns.
+pub(crate) fn header(has_truth: bool) -> Vec<&'static str> {
     let mut header = vec![
         "method",
         "iterations",
@@ -132,11 +145,8 @@ fn draw(into: &mut Folder, limbs: &Limbs, words: Words) -> Result<Figure, Failur
         "bending of bones",
         "bending of joints over bones",
     ];
-    header.extend(limbs.truth.is_some().then_some("distance from the pose"));
-    let data = vec![into.csv(prefix, &header, &rows)?];
-    let names: Vec<&str> = outcomes.iter().map(|o| o.name.as_str()).collect();
-    let checks = checks(&names, &verdicts);
-    Ok(Figure { number, title, claim, setup, rows: vec![panels], table: String::new(), checks, data })
+    header.extend(has_truth.then_some("distance from the pose"));
+    header
 }
 
 /// What became of bones and joints.
@@ -151,14 +161,14 @@ pub(crate) struct Verdict {
 }
 
 impl Verdict {
-    fn caption(&self) -> String {
+    pub(crate) fn caption(&self) -> String {
         match self.distance {
             Some(distance) => format!("{:.2} % off", 100.0 * distance),
             None => format!("bones bent by {:.2}°", self.bending),
         }
     }
 
-    fn row(&self, outcome: &Outcome) -> Vec<String> {
+    pub(crate) fn row(&self, outcome: &Outcome) -> Vec<String> {
         let counts = [outcome.bent.n_iterations().to_string(), outcome.crossings.to_string()];
         let numbers = [Some(self.stretch), Some(self.bending), Some(self.at_joints), self.distance];
         let numbers = numbers.into_iter().flatten().map(|number| format!("{number:.5}"));
@@ -184,19 +194,24 @@ pub(crate) fn verdicts(limbs: &Limbs, outcomes: &[Outcome]) -> Vec<Verdict> {
     outcomes.iter().map(of_outcome).collect()
 }
 
+/// Two digits behind the point, more where they are needed.
+fn short(value: f64) -> String {
+    if value.abs() < 0.1 { format!("{value:.3}") } else { format!("{value:.2}") }
+}
+
 /// The last one is ours.
 pub(crate) fn checks(names: &[&str], verdicts: &[Verdict]) -> Vec<Check> {
     let least = |claim: &str, unit: &str, value: &dyn Fn(&Verdict) -> f64| {
         let values: Vec<f64> = verdicts.iter().map(value).collect();
         let (ours, others) = values.split_last().expect("four methods");
         let listed: Vec<String> =
-            others.iter().zip(names).map(|(x, name)| format!("{x:.2}{unit} with {name}")).collect();
+            others.iter().zip(names).map(|(x, name)| format!("{}{unit} with {name}", short(*x))).collect();
         let holds = others.iter().all(|other| ours < other);
-        Check::new(claim, holds, format!("{ours:.2}{unit} against {}", listed.join(", ")))
+        Check::new(claim, holds, format!("{}{unit} against {}", short(*ours), listed.join(", ")))
     };
     let mut checks = vec![
         least("Bones are bent less than with any other method", "°", &|verdict| verdict.bending),
-        least("Bones are stretched less", " %", &|verdict| 100.0 * verdict.stretch),
+        least("Bones are stretched less than with any other method", " %", &|verdict| 100.0 * verdict.stretch),
         least(
             "The bend is at the joints: bones have the smallest share of it (bending of bones over that of joints)",
             "",

@@ -4,6 +4,7 @@ mod contest;
 mod convergence;
 mod folding;
 mod large;
+mod learned;
 mod limbs;
 mod stiffening;
 mod stripes;
@@ -18,7 +19,7 @@ use crate::page::{Figure, Folder, page};
 type Draw = fn(&mut Folder) -> Result<Figure, Failure>;
 
 /// All of them with the number that the paper gives.
-const ALL: [(&str, Draw); 8] = [
+const ALL: [(&str, Draw); 11] = [
     ("3", folding::figure),
     ("4-5", convergence::figure),
     ("6", stiffening::figure),
@@ -27,6 +28,9 @@ const ALL: [(&str, Draw); 8] = [
     ("9", limbs::arm),
     ("10", limbs::legs),
     ("11", limbs::pieces),
+    ("12", learned::shapes),
+    ("13", learned::numbers),
+    ("14", learned::uniform),
 ];
 
 /// How many sections the page has.
@@ -61,9 +65,8 @@ fn foot(seconds: f64) -> String {
     let cpu = cpu.unwrap_or_else(|| std::env::consts::ARCH.to_owned());
     let n_threads = std::thread::available_parallelism().map_or(1, usize::from);
     format!(
-        "Made by `cargo xtask gallery` in {:.0} minutes on {cpu}, {n_threads} threads. But for the times in table 1, and the last \
+        "Made by `cargo xtask gallery` in {seconds:.0} seconds on {cpu}, {n_threads} threads. But for the times in table 1, and the last \
          bits of pictures drawn by another graphics driver, it makes the same page every time; `cargo xtask gallery --check` looks \
-         whether the page is whole.",
-        (seconds / 60.0).ceil()
+         whether the page is whole."
     )
 }
