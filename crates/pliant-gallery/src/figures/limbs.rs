@@ -144,6 +144,7 @@ pub(crate) fn header(has_truth: bool) -> Vec<&'static str> {
         "stretch of bones",
         "bending of bones",
         "bending of joints over bones",
+        "volume ratio",
     ];
     header.extend(has_truth.then_some("distance from the pose"));
     header
@@ -152,12 +153,14 @@ pub(crate) fn header(has_truth: bool) -> Vec<&'static str> {
 /// What became of bones and joints.
 pub(crate) struct Verdict {
     /// Means over the edges of bones.
-    pub(crate) stretch: f64,
-    pub(crate) bending: f64,
+    stretch: f64,
+    bending: f64,
     /// Bending of joints over that of bones.
-    pub(crate) at_joints: f64,
+    at_joints: f64,
+    /// That of all, over that at rest.
+    volume: f64,
     /// Mean distance of a vertex from where it should be, in diagonals.
-    pub(crate) distance: Option<f64>,
+    distance: Option<f64>,
 }
 
 impl Verdict {
@@ -170,7 +173,7 @@ impl Verdict {
 
     pub(crate) fn row(&self, outcome: &Outcome) -> Vec<String> {
         let counts = [outcome.bent.n_iterations().to_string(), outcome.crossings.to_string()];
-        let numbers = [Some(self.stretch), Some(self.bending), Some(self.at_joints), self.distance];
+        let numbers = [Some(self.stretch), Some(self.bending), Some(self.at_joints), Some(self.volume), self.distance];
         let numbers = numbers.into_iter().flatten().map(|number| format!("{number:.5}"));
         [outcome.name.clone()].into_iter().chain(counts).chain(numbers).collect()
     }
@@ -188,6 +191,7 @@ pub(crate) fn verdicts(limbs: &Limbs, outcomes: &[Outcome]) -> Vec<Verdict> {
             stretch: bones.stretch(posed),
             bending: bones.bending(posed),
             at_joints: joints.bending(posed) / bones.bending(posed),
+            volume: outcome.volume,
             distance: limbs.truth.as_ref().map(|truth| distance(mesh, posed, truth)),
         }
     };
@@ -224,6 +228,10 @@ pub(crate) fn checks(names: &[&str], verdicts: &[Verdict]) -> Vec<Check> {
             " %",
             &|verdict| 100.0 * verdict.distance.unwrap_or(f64::INFINITY),
         ));
+    } else {
+        checks.push(least("Volume stays nearest to that at rest", " % off", &|verdict| {
+            100.0 * (verdict.volume - 1.0).abs()
+        }));
     }
     checks
 }
