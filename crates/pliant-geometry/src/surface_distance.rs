@@ -12,9 +12,8 @@
 
 use crate::bounds::corners;
 use crate::incidence::Incidence;
-use glam::Vec3;
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
+use front::Front;
+use glam::{DVec3, Vec3};
 use std::sync::Arc;
 
 pub use growth::{Crossing, Growth};
@@ -38,12 +37,12 @@ struct Question {
     marks: Vec<Mark>,
     /// Number of the current question: marks with another number are blank.
     epoch: u32,
-    front: BinaryHeap<Reverse<(OrderedDistance, u32)>>,
+    front: Front,
     touched: Vec<u32>,
     /// Vertices past the radius that the front has visited all the same.
     beyond: Vec<u32>,
-    /// Longest edge that was met: neighbors differ by no more.
-    longest: f64,
+    /// Square of the longest edge that was met: neighbors differ by no more than the edge.
+    longest_squared: f64,
 }
 
 /// What is known of a vertex in the question `epoch`.
@@ -53,22 +52,6 @@ struct Mark {
     /// How often the front has passed it; 0 while its distance is only a bound.
     visits: u8,
     distance: f64,
-}
-
-/// Compared as a number; never NaN.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct OrderedDistance(f64);
-
-impl Eq for OrderedDistance {}
-impl PartialOrd for OrderedDistance {
-    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
-        Some(self.cmp(other))
-    }
-}
-impl Ord for OrderedDistance {
-    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
-        self.0.total_cmp(&other.0)
-    }
 }
 
 impl SurfaceDistance {
@@ -126,10 +109,10 @@ impl Question {
         Question {
             marks: vec![Mark::default(); n_vertices],
             epoch: 0,
-            front: BinaryHeap::new(),
+            front: Front::default(),
             touched: Vec::new(),
             beyond: Vec::new(),
-            longest: 0.0,
+            longest_squared: 0.0,
         }
     }
 
@@ -150,7 +133,7 @@ impl Question {
         self.front.clear();
         self.touched.clear();
         self.beyond.clear();
-        self.longest = 0.0;
+        self.longest_squared = 0.0;
         for (v, p) in start.into_iter().zip(at) {
             self.offer(v, (p.as_dvec3() - point.as_dvec3()).length());
         }
@@ -161,17 +144,18 @@ impl Question {
     /// still visited, without spreading further: they support their neighbors inside.
     fn march(&mut self, surface: &Posed<'_>, radius: f64, most: usize) -> bool {
         let mut n_visited = 0;
-        while let Some(Reverse((OrderedDistance(distance), v))) = self.front.pop() {
+        while let Some((key, v)) = self.front.pop() {
             let mark = &mut self.marks[v as usize];
-            if distance > mark.distance || mark.visits >= MAX_VISITS {
+            if key > Front::key(mark.distance) || mark.visits >= MAX_VISITS {
                 continue;
             }
             if n_visited == most {
-                self.front.push(Reverse((OrderedDistance(distance), v)));
+                self.front.push(mark.distance, v);
                 return false;
             }
             n_visited += 1;
             mark.visits += 1;
+            let distance = mark.distance;
             if distance > radius {
                 self.beyond.push(v);
             }
@@ -188,15 +172,15 @@ impl Question {
                 continue;
             };
             let corner = ids.iter().position(|&id| id == v).unwrap_or(0);
-            let (b, c) = ((corner + 1) % 3, (corner + 2) % 3);
-            let length = |i: usize, j: usize| at[i].as_dvec3().distance(at[j].as_dvec3());
-            let (to_b, to_c, between) = (length(corner, b), length(corner, c), length(b, c));
-            self.longest = self.longest.max(to_b).max(to_c);
-            for (b, c, lengths) in [(b, c, [to_b, to_c, between]), (c, b, [to_c, to_b, between])] {
-                let through = self.visited(ids[b]).and_then(|known| across(lengths, distance, known));
-                let reached = through.unwrap_or(distance + lengths[1]);
+            let [a, b, c] = [corner, (corner + 1) % 3, (corner + 2) % 3].map(|k| (ids[k], at[k].as_dvec3()));
+            let squared = |x: (u32, DVec3), y: (u32, DVec3)| x.1.distance_squared(y.1);
+            let (to_b, to_c, between) = (squared(a, b), squared(a, c), squared(b, c));
+            self.longest_squared = self.longest_squared.max(to_b).max(to_c);
+            for (b, c, squares) in [(b, c, [to_b, to_c, between]), (c, b, [to_c, to_b, between])] {
+                let through = self.visited(b.0).and_then(|known| across(squares, distance, known));
+                let reached = through.unwrap_or_else(|| distance + squares[1].sqrt());
                 if reached <= radius || distance <= radius {
-                    self.offer(ids[c], reached);
+                    self.offer(c.0, reached);
                 }
             }
         }
@@ -218,7 +202,7 @@ impl Question {
         let worthwhile = if mark.visits > 0 { mark.distance * (1.0 - WORTHWHILE) } else { mark.distance };
         if distance < worthwhile {
             mark.distance = distance;
-            self.front.push(Reverse((OrderedDistance(distance), v)));
+            self.front.push(distance, v);
         }
     }
 
@@ -230,19 +214,23 @@ impl Question {
     }
 }
 
-/// d(C) through the inside of edge AB, from the lengths |AB|, |AC|, |BC| and the distances of A and B; `None` when the
+/// d(C) through the inside of edge AB, from the squares |AB|², |AC|², |BC|² and the distances of A and B; `None` when the
 /// straight line from the unfolded source does not pass there.
 fn across([ab, ac, bc]: [f64; 3], from_a: f64, from_b: f64) -> Option<f64> {
-    // A at the origin, B on the positive x axis, C above it, the source S below.
-    let along = |a2: f64, b2: f64| (a2 - b2 + ab * ab) / (2.0 * ab);
-    let (cx, sx) = (along(ac * ac, bc * bc), along(from_a * from_a, from_b * from_b));
-    let (cy, sy) = ((ac * ac - cx * cx).max(0.0).sqrt(), -(from_a * from_a - sx * sx).max(0.0).sqrt());
-    let height = cy - sy;
-    // Where the line from S to C meets AB. Without a height, or with |AB| = 0, this is NaN or infinite and refused.
-    let crossing = sx + (cx - sx) * (-sy / height);
-    (crossing >= 0.0 && crossing <= ab).then(|| (cx - sx).hypot(height))
+    // A at the origin, B on the positive x axis, C above it, the source S below; all lengths times 2 |AB|, which leaves one
+    // division.
+    let (a2, b2) = (from_a * from_a, from_b * from_b);
+    let (cx, sx) = (ac - bc + ab, a2 - b2 + ab);
+    let cy = (4.0 * ab * ac - cx * cx).max(0.0).sqrt();
+    let depth = (4.0 * ab * a2 - sx * sx).max(0.0).sqrt();
+    let height = cy + depth;
+    // Where the line from S to C meets AB, times the height. Without a height, as with |AB| = 0, there is no such line.
+    let crossing = sx * height + (cx - sx) * depth;
+    let passes = height > 0.0 && crossing >= 0.0 && crossing <= 2.0 * ab * height;
+    passes.then(|| (((cx - sx).powi(2) + height * height) / (4.0 * ab)).sqrt())
 }
 
+mod front;
 mod growth;
 #[cfg(test)]
 mod tests;

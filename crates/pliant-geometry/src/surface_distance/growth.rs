@@ -35,7 +35,7 @@ impl Growth {
             for v in std::mem::take(&mut question.beyond) {
                 let mark = &mut question.marks[v as usize];
                 mark.visits = mark.visits.saturating_sub(1);
-                question.front.push(std::cmp::Reverse((super::OrderedDistance(mark.distance), v)));
+                question.front.push(mark.distance, v);
             }
         }
         let surface = Posed { incidence: &self.incidence, positions, triangles };
@@ -61,9 +61,10 @@ impl Growth {
             let mark = self.question.marks[v as usize];
             if mark.epoch == self.question.epoch { mark.distance } else { f64::INFINITY }
         };
+        let longest = self.question.longest_squared.sqrt();
         for &v in &self.question.touched {
             let outside = distance(v);
-            if outside <= radius || outside > radius + self.question.longest {
+            if outside <= radius || outside > radius + longest {
                 continue;
             }
             for &face in self.incidence.around(v as usize) {

@@ -6,6 +6,7 @@ use glam::{Vec2, Vec3};
 use pliant_solver::{Mesh, Rigidity, VertexId};
 use rayon::prelude::*;
 
+use super::prompt::promptly;
 use super::{BrushMode, BrushReach, Context, Cursor, Input, Marks, Mirror, Pick, Pointer, Reaction, Tool, ToolKey};
 use crate::document::{Command, SelectMode};
 use crate::viewport::{Line, Projection};
@@ -128,7 +129,7 @@ fn under_circle(px: Vec2, pick: &Pick, context: &Context<'_>) -> Vec<VertexId> {
         let from_pick = *p - pick.position;
         (from_pick - sight * from_pick.dot(sight)).length_squared() <= most
     };
-    positions.par_iter().enumerate().filter(is_under).map(|(v, _)| VertexId(v as u32)).collect()
+    promptly(|| positions.par_iter().enumerate().filter(is_under).map(|(v, _)| VertexId(v as u32)).collect())
 }
 
 /// The command for covered vertices, if it has any effect.

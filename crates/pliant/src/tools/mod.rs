@@ -16,6 +16,7 @@ mod outline;
 mod paint_options;
 mod place;
 mod prepared;
+mod prompt;
 mod region;
 mod select;
 mod surface;

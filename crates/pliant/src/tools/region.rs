@@ -5,6 +5,7 @@ use pliant_solver::{Mesh, VertexId};
 use rayon::prelude::*;
 
 use super::outline::Outline;
+use super::prompt::promptly;
 use super::{Context, Pick};
 use crate::viewport::Projection;
 
@@ -37,7 +38,7 @@ pub(super) fn inside_outline(outline: &[Vec2], through: bool, context: &mut Cont
     let frame = context.surface.frame().clone();
     let vertices = frame.positions.par_iter().with_min_len(VERTICES_PER_TASK).enumerate();
     let is_inside = |&p: &Vec3| view.camera.project(p, view.size).is_some_and(|(px, _)| outline.contains(px));
-    let inside = vertices.filter(|(_, p)| is_inside(p)).map(|(v, _)| VertexId(v as u32)).collect();
+    let inside = promptly(|| vertices.filter(|(_, p)| is_inside(p)).map(|(v, _)| VertexId(v as u32)).collect());
     if through { inside } else { context.surface.visible_of(inside, &view) }
 }
 

@@ -7,6 +7,7 @@ use pliant_geometry::{Bvh, Growth, Occlusion, Ray, Sight, SurfaceDistance};
 use pliant_solver::VertexId;
 use rayon::prelude::*;
 
+use super::prompt::promptly;
 use super::{Card, View};
 use crate::document::Model;
 use crate::viewport::SurfaceFrame;
@@ -98,18 +99,22 @@ impl Surface {
     /// many, only where a picture of depths leaves doubts.
     pub fn visible_of(&mut self, vertices: Vec<VertexId>, view: &View) -> Vec<VertexId> {
         self.refit();
-        let surface = &*self;
+        promptly(|| self.seen_of(vertices, view))
+    }
+
+    /// The hierarchy must be current.
+    fn seen_of(&self, vertices: Vec<VertexId>, view: &View) -> Vec<VertexId> {
         let vertices = vertices.into_par_iter().with_min_len(RAYS_PER_TASK);
         if vertices.len() < RAYS_ALONE {
-            return vertices.filter(|&v| surface.is_seen(v, view)).collect();
+            return vertices.filter(|&v| self.is_seen(v, view)).collect();
         }
-        let positions = &surface.frame.positions;
-        let picture = Occlusion::new(positions, &surface.triangles, view.camera.lens(view.size));
+        let positions = &self.frame.positions;
+        let picture = Occlusion::new(positions, &self.triangles, view.camera.lens(view.size));
         let slack = SLACK * view.camera.distance;
         let is_visible = |&v: &VertexId| match picture.sight(positions[v.index()], slack) {
             Sight::Clear => true,
             Sight::Hidden => false,
-            Sight::Doubtful => surface.is_seen(v, view),
+            Sight::Doubtful => self.is_seen(v, view),
         };
         vertices.filter(is_visible).collect()
     }
@@ -150,7 +155,7 @@ impl Surface {
 
     fn refit(&mut self) {
         if !self.bvh_is_current {
-            self.bvh.refit(&self.frame.positions, &self.triangles);
+            promptly(|| self.bvh.refit(&self.frame.positions, &self.triangles));
             self.bvh_is_current = true;
         }
     }

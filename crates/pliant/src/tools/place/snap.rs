@@ -10,6 +10,7 @@ use pliant_solver::VertexId;
 use rayon::prelude::*;
 
 use crate::tools::View;
+use crate::tools::prompt::promptly;
 use crate::viewport::{Line, SurfaceFrame};
 
 /// How near the pointer must be to a vertex, in points (by eye: two dots of handles).
@@ -43,7 +44,7 @@ pub(super) fn target(
         let distance = at.distance(px);
         (distance <= REACH_PX).then_some((VertexId(v as u32), position, depth, distance))
     };
-    let mut found: Vec<_> = frame.positions.par_iter().enumerate().filter_map(near).collect();
+    let mut found: Vec<_> = promptly(|| frame.positions.par_iter().enumerate().filter_map(near).collect());
     found.retain(|&(v, ..)| !is_left_out(v));
     let &(_, foremost, nearest, _) = found.iter().min_by(|a, b| a.2.total_cmp(&b.2))?;
     let most = nearest + BEHIND * REACH_PX * view.camera.world_per_px(foremost, view.size);
