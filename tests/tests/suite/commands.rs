@@ -131,7 +131,7 @@ fn wrong_usage_ends_with_2_and_explains_itself() {
 
 #[test]
 fn every_command_explains_itself_with_an_example() {
-    for command in ["", "deform", "learn", "info", "render"] {
+    for command in ["", "deform", "learn", "compare", "info", "render"] {
         let arguments: Vec<&str> = [command, "--help"].into_iter().filter(|word| !word.is_empty()).collect();
         let outcome = pliant(&arguments).expect_done();
         assert!(outcome.out.contains("Example"), "{arguments:?}: {}", outcome.out);

@@ -2,6 +2,7 @@
 
 mod agreement;
 mod commands;
+mod compare_command;
 mod editor;
 mod editor_access;
 mod editor_comparing;

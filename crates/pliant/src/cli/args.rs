@@ -6,6 +6,14 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use pliant_meshfile::Welding;
 use pliant_solver::Weights;
 
+mod compare;
+mod entry;
+mod solving;
+
+pub(super) use compare::CompareOptions;
+pub(super) use entry::{Entry, Way};
+pub(super) use solving::SolvingOptions;
+
 const EDITOR_EXAMPLES: &str = "\
 Examples:
   pliant                       open the editor on a sample
@@ -40,6 +48,8 @@ pub(super) enum Command {
     Deform(DeformOptions),
     /// Find out from poses how stiff each part of a mesh is
     Learn(LearnOptions),
+    /// Bend a mesh by several methods and write a report that puts them side by side
+    Compare(CompareOptions),
     /// Say what is in a mesh file: counts, bounds, defects, parts, rigidity
     Info(InfoOptions),
     /// Draw a picture of a mesh without a window
@@ -101,29 +111,8 @@ pub(super) struct DeformOptions {
     #[arg(long, value_name = "K")]
     pub(super) node_neighbors: Option<usize>,
 
-    /// How to minimize it (embedded has its own way)
-    #[arg(long, value_enum, default_value_t)]
-    pub(super) solver: SolverChoice,
-
-    /// Weights of the edges
-    #[arg(long, value_enum, default_value_t)]
-    pub(super) weights: WeightsChoice,
-
-    /// Where the iteration begins
-    #[arg(long, value_enum, default_value_t)]
-    pub(super) start: StartChoice,
-
-    /// Iterations at most
-    #[arg(long, value_name = "COUNT", default_value_t = 1000)]
-    pub(super) max_iterations: u64,
-
-    /// Stop when the energy falls by less than this fraction in one iteration (lbfgs: in three); 0 runs all iterations
-    #[arg(long, value_name = "FRACTION", default_value_t = 1e-3, allow_negative_numbers = true)]
-    pub(super) tolerance: f64,
-
-    /// Threads to use [default: all cores]
-    #[arg(long, value_name = "N")]
-    pub(super) threads: Option<usize>,
+    #[command(flatten)]
+    pub(super) solving: SolvingOptions,
 
     /// Count the pairs of triangles of the result that cross, for the report
     #[arg(long)]
@@ -324,6 +313,15 @@ pub(super) enum StartChoice {
     Rest,
 }
 
+impl StartChoice {
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            StartChoice::Auto => "auto",
+            StartChoice::Rest => "rest",
+        }
+    }
+}
+
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  pliant info creature.glb\n  pliant info creature.glb --json")]
 pub(super) struct InfoOptions {
@@ -429,11 +427,11 @@ mod tests {
             .expect("the shortest legal command");
         let Some(Command::Deform(options)) = parsed.command else { panic!("not deform: {:?}", parsed.command) };
         assert_eq!(options.method, Method::Rring);
-        assert_eq!(options.solver, SolverChoice::Lbfgs);
-        assert_eq!(options.weights, WeightsChoice::Clamped);
-        assert_eq!(options.start, StartChoice::Auto);
-        assert_eq!(options.max_iterations, 1000);
-        assert_eq!(options.tolerance, 1e-3);
+        assert_eq!(options.solving.solver, SolverChoice::Lbfgs);
+        assert_eq!(options.solving.weights, WeightsChoice::Clamped);
+        assert_eq!(options.solving.start, StartChoice::Auto);
+        assert_eq!(options.solving.max_iterations, 1000);
+        assert_eq!(options.solving.tolerance, 1e-3);
     }
 
     #[test]

@@ -15,6 +15,8 @@ pub struct Console<'a> {
     err: &'a mut (dyn Write + Send),
     progress: Progress,
     quiet: bool,
+    /// What the progress is about, before each line of it.
+    task: String,
 }
 
 enum Progress {
@@ -33,7 +35,7 @@ impl<'a> Console<'a> {
     /// Progress is shown only if `err_is_terminal`.
     pub fn new(out: &'a mut (dyn Write + Send), err: &'a mut (dyn Write + Send), err_is_terminal: bool) -> Self {
         let progress = if err_is_terminal { Progress::Clear { last: None } } else { Progress::Hidden };
-        Console { out, err, progress, quiet: false }
+        Console { out, err, progress, quiet: false, task: String::new() }
     }
 
     pub(super) fn set_quiet(&mut self, quiet: bool) {
@@ -78,6 +80,21 @@ impl<'a> Console<'a> {
         let _ = self.err.write_all(text.as_bytes());
     }
 
+    /// Says what the following progress is about; nothing for an empty text.
+    pub(super) fn set_task(&mut self, task: String) {
+        self.task = task;
+    }
+
+    /// Replaces the progress line by one about what may take long, however young the last one is.
+    pub(super) fn stage(&mut self, what: &str) {
+        match self.progress {
+            Progress::Hidden => return,
+            Progress::Clear { .. } | Progress::Shown { .. } => self.clear_progress(),
+        }
+        self.progress = Progress::Clear { last: None };
+        self.progress(|| what.to_owned());
+    }
+
     /// Replaces the progress line; does nothing unless a terminal is watching and the last one is old enough.
     pub(super) fn progress(&mut self, what: impl FnOnce() -> String) {
         let last = match self.progress {
@@ -89,7 +106,7 @@ impl<'a> Console<'a> {
             return;
         }
         self.clear_progress();
-        let _ = write!(self.err, "{}", what());
+        let _ = write!(self.err, "{}{}", self.task, one_line(&what()));
         let _ = self.err.flush();
         self.progress = Progress::Shown { last: Instant::now() };
     }
@@ -128,6 +145,18 @@ mod tests {
     fn a_failure_is_one_line_whatever_it_contains() {
         let (_, err) = said(false, true, |console| console.fail(&"cannot read a\nb\r\n\tc: \u{1b}[31mno"));
         assert_eq!(err, "pliant: cannot read a b c: [31mno\n");
+    }
+
+    #[test]
+    fn a_stage_is_said_at_once_and_progress_names_its_task() {
+        let speak = |console: &mut Console<'_>| {
+            console.set_task("entry 1 of 2: ".to_owned());
+            console.progress(|| "iteration 1".to_owned());
+            console.progress(|| "too young".to_owned());
+            console.stage("drawing");
+        };
+        assert_eq!(said(true, false, speak).1, "entry 1 of 2: iteration 1\r\x1b[Kentry 1 of 2: drawing");
+        assert_eq!([said(false, false, speak).1, said(true, true, speak).1], ["", ""]);
     }
 
     #[test]

@@ -5,9 +5,9 @@ use std::time::Instant;
 
 use glam::DVec3;
 use pliant_meshfile::{Format, MeshFile, SaveError, Warning};
-use pliant_solver::{DeformationGraph, Method as Other, Minimizer, Start, VertexId};
+use pliant_solver::{DeformationGraph, Method as Other};
 
-use super::args::{DeformOptions, Method, SolverChoice, StartChoice};
+use super::args::{DeformOptions, Method};
 use super::console::Console;
 use super::failure::Failure;
 use super::handles_file;
@@ -18,12 +18,9 @@ use super::staged::{Staged, check_side_files, check_target, same_file};
 use super::surface;
 use super::threads::on_threads;
 
-/// Loose components named one by one; the others are only counted.
-const LOOSE_NAMED: usize = 5;
-
 pub(super) fn run(options: &DeformOptions, console: &mut Console<'_>) -> Result<(), Failure> {
     check_options(options)?;
-    on_threads(options.threads, || run_in_pool(options, console))
+    on_threads(options.solving.threads, || run_in_pool(options, console))
 }
 
 fn run_in_pool(options: &DeformOptions, console: &mut Console<'_>) -> Result<(), Failure> {
@@ -34,8 +31,8 @@ fn run_in_pool(options: &DeformOptions, console: &mut Console<'_>) -> Result<(),
     let mut solution = solve(&job.problem, &settings(options), console)
         .map_err(|source| surface::unsolvable(source, &options.mesh, &job.file.weld))?;
     solution.times.load = load_ms;
-    check_finite(&solution.positions, &job.file)?;
-    warn_of_loose(&solution.loose, &job.file, &mut job.warnings);
+    surface::check_finite(&solution.positions, &job.file.weld)?;
+    job.warnings.extend(surface::loose(&solution.loose, &job.file.weld));
 
     let mut report = report(options, &job, solution.energies);
     report.converged = solution.converged;
@@ -58,15 +55,7 @@ fn run_in_pool(options: &DeformOptions, console: &mut Console<'_>) -> Result<(),
 /// Refuses what can be refused without reading a file.
 fn check_options(options: &DeformOptions) -> Result<(), Failure> {
     let refuse = |option, value: String, allowed| Err(Failure::OutOfRange { option, value, allowed });
-    if options.max_iterations == 0 {
-        return refuse("--max-iterations", "0".to_owned(), "at least 1");
-    }
-    if !(options.tolerance >= 0.0 && options.tolerance.is_finite()) {
-        return refuse("--tolerance", options.tolerance.to_string(), "a number of at least 0");
-    }
-    if options.threads == Some(0) {
-        return refuse("--threads", "0".to_owned(), "at least 1");
-    }
+    options.solving.check()?;
     if options.alpha.is_some_and(|alpha| !(alpha >= 0.0 && alpha.is_finite())) {
         return refuse("--alpha", options.alpha.unwrap_or_default().to_string(), "a number of at least 0");
     }
@@ -166,57 +155,11 @@ fn settings(options: &DeformOptions) -> Settings {
                 neighbors: options.node_neighbors.unwrap_or(Other::NODE_NEIGHBORS),
             }),
         },
-        weights: options.weights.into(),
-        minimizer: match options.solver {
-            SolverChoice::Lbfgs => Minimizer::Lbfgs,
-            SolverChoice::LocalGlobal => Minimizer::LocalGlobal,
-        },
-        start: match options.start {
-            StartChoice::Auto => Start::Auto,
-            StartChoice::Rest => Start::Rest,
-        },
-        max_iterations: options.max_iterations,
-        tolerance: options.tolerance,
-    }
-}
-
-/// A result that is not finite must never reach a file.
-fn check_finite(positions: &[DVec3], file: &MeshFile) -> Result<(), Failure> {
-    match positions.iter().position(|position| !position.is_finite()) {
-        Some(point) => Err(Failure::NotFinite { vertex: file.weld.vertex_of_point[point] as usize }),
-        None => Ok(()),
-    }
-}
-
-/// Says which parts nothing holds: they stay at rest while the rest moves on.
-fn warn_of_loose(loose: &[(usize, VertexId)], file: &MeshFile, warnings: &mut Vec<String>) {
-    let in_file = |vertex: VertexId| file.weld.vertex_of_point[vertex.index()];
-    let (single, large): (Vec<_>, Vec<_>) = loose.iter().copied().partition(|&(count, _)| count == 1);
-    for &(count, first) in large.iter().take(LOOSE_NAMED) {
-        let first = in_file(first);
-        warnings.push(format!("component of {count} vertices has no handle and stays at rest (first: vertex {first})"));
-    }
-    if let Some(&(_, first)) = large.get(LOOSE_NAMED) {
-        let more = large.len() - LOOSE_NAMED;
-        let first = in_file(first);
-        warnings.push(format!("{more} more components have no handle and stay at rest (first: vertex {first})"));
-    }
-    if let Some(&(_, first)) = single.first() {
-        let (count, first) = (single.len(), in_file(first));
-        let noun = if count == 1 {
-            "vertex has no edge, no handle and stays"
-        } else {
-            "vertices have no edge, no handle and stay"
-        };
-        warnings.push(format!("{count} {noun} at rest (first: vertex {first})"));
-    }
-}
-
-/// How it was minimized.
-fn solver_name(options: &DeformOptions) -> &'static str {
-    match options.method {
-        Method::Embedded => "gauss-newton",
-        _ => options.solver.name(),
+        weights: options.solving.weights.into(),
+        minimizer: options.solving.minimizer(),
+        start: options.solving.start(),
+        max_iterations: options.solving.max_iterations,
+        tolerance: options.solving.tolerance,
     }
 }
 
@@ -225,8 +168,8 @@ fn report(options: &DeformOptions, job: &Job, energies: Vec<f64>) -> DeformRepor
     DeformReport {
         mesh: MeshCounts::new(&job.file, &job.problem.mesh),
         method: options.method.name(),
-        solver: solver_name(options),
-        weights: options.weights.name(),
+        solver: options.solving.solver_of(options.method),
+        weights: options.solving.weights.name(),
         threads: rayon::current_num_threads(),
         rigidity: RigiditySummary::new(&job.problem.rigidity),
         converged: false,

@@ -22,6 +22,10 @@ pub(super) enum Failure {
     OutOfRange { option: &'static str, value: String, allowed: &'static str },
     #[error("{}: a picture is written as PNG; use the extension .png", path.display())]
     NotPng { path: PathBuf },
+    #[error("{}: the report is written as HTML; use the extension .html", path.display())]
+    NotHtml { path: PathBuf },
+    #[error("no entry could be solved; the first, {entry}: {source}")]
+    NoneSolved { entry: String, source: Box<Failure> },
     #[error("{}: there is no folder {}; create it first", path.display(), folder.display())]
     NoFolder { path: PathBuf, folder: PathBuf },
     #[error("{}: is a folder; name a file", path.display())]

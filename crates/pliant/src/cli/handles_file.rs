@@ -32,7 +32,7 @@ const MAX_BYTES: u64 = 256 << 20;
 const SAME_TARGET: f64 = 1e-9;
 
 /// Held surface points in ascending order, each once, with their targets in world space.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Handles {
     pub(super) held: Vec<VertexId>,
     pub(super) targets: Vec<DVec3>,

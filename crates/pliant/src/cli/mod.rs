@@ -1,7 +1,7 @@
 //! The command line: the document and the solver of the editor, without a window.
 //!
 //! ```text
-//! arguments ── args ──▶ editor | deform | learn | info | render ──▶ files, standard output
+//! arguments ── args ──▶ editor | deform | learn | compare | info | render ──▶ files, standard output
 //!                                     │
 //!                                  Failure ──▶ one line on standard error and an exit code
 //! ```
@@ -13,6 +13,7 @@
 //! own process and read what they said.
 
 mod args;
+mod compare;
 mod console;
 mod deform;
 mod failure;
@@ -72,6 +73,7 @@ where
 fn dispatch(parsed: Arguments, console: &mut Console<'_>) -> Result<(), Failure> {
     match parsed.command {
         Some(Command::Deform(options)) => deform::run(&options, console),
+        Some(Command::Compare(options)) => compare::run(&options, console),
         Some(Command::Learn(options)) => learn::run(&options, console),
         Some(Command::Info(options)) => info::run(&options, console),
         Some(Command::Render(options)) => render::run(&options, console),

@@ -30,6 +30,20 @@ impl MeshCounts {
     }
 }
 
+impl MeshCounts {
+    pub(super) fn surface_points(&self) -> usize {
+        self.surface_points
+    }
+
+    pub(super) fn faces(&self) -> usize {
+        self.faces
+    }
+
+    pub(super) fn components(&self) -> usize {
+        self.components
+    }
+}
+
 impl std::fmt::Display for MeshCounts {
     /// One indented line a count.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -51,6 +65,12 @@ pub(super) struct RigiditySummary {
 impl RigiditySummary {
     pub(super) fn new(rigidity: &Rigidity) -> Self {
         RigiditySummary { min: rigidity.min(), max: rigidity.max(), mean: rigidity.mean() }
+    }
+}
+
+impl RigiditySummary {
+    pub(super) fn max(&self) -> u16 {
+        self.max
     }
 }
 

@@ -17,11 +17,16 @@ pub(super) struct ChosenRigidity {
     pub(super) warning: Option<String>,
 }
 
-/// Reads what `option` asks for; a whole number is never taken for a file name.
-pub(super) fn choose(option: Option<&str>, mesh: &MeshFile) -> Result<ChosenRigidity, Failure> {
-    match option {
+/// Reads what `--rigidity` asks for; a whole number is never taken for a file name.
+pub(super) fn choose(wish: Option<&str>, mesh: &MeshFile) -> Result<ChosenRigidity, Failure> {
+    choose_by("--rigidity", wish, mesh)
+}
+
+/// The same for another option.
+pub(super) fn choose_by(option: &'static str, wish: Option<&str>, mesh: &MeshFile) -> Result<ChosenRigidity, Failure> {
+    match wish {
         Some(text) => match text.parse::<i128>() {
-            Ok(number) => uniform(number, mesh),
+            Ok(number) => uniform(option, number, mesh),
             Err(_) => from_file(Path::new(text), mesh),
         },
         None => carried(mesh),
@@ -34,10 +39,10 @@ pub(super) fn ones(mesh: &MeshFile) -> ChosenRigidity {
     ChosenRigidity { rigidity, is_explicit: false, warning: None }
 }
 
-fn uniform(number: i128, mesh: &MeshFile) -> Result<ChosenRigidity, Failure> {
+fn uniform(option: &'static str, number: i128, mesh: &MeshFile) -> Result<ChosenRigidity, Failure> {
     let r = u16::try_from(number).ok().filter(|r| (1..=Rigidity::MAX).contains(r));
     let r = r.ok_or_else(|| Failure::OutOfRange {
-        option: "--rigidity",
+        option,
         value: number.to_string(),
         // Rigidity::MAX in words, checked by a test.
         allowed: "between 1 and 1000",

@@ -1,5 +1,6 @@
 //! One deformation from rest to the end of the iteration, with the time of every stage.
 
+use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -67,8 +68,24 @@ pub(super) struct Solution {
 
 /// Solves `problem`; the only failure is a system that cannot be set up.
 pub(super) fn solve(problem: &Problem, settings: &Settings, console: &mut Console<'_>) -> Result<Solution, SolveError> {
+    console.progress(|| "analyzing the mesh".to_owned());
+    let clock = Instant::now();
+    let analysis = Arc::new(Analysis::new(problem.mesh.clone(), settings.weights));
+    let order = milliseconds(clock);
+    let mut solution = solve_analyzed(analysis, problem, settings, console)?;
+    solution.times.order = order;
+    Ok(solution)
+}
+
+/// The same for a mesh that was analyzed before, with the weights of `settings`.
+pub(super) fn solve_analyzed(
+    analysis: Arc<Analysis>,
+    problem: &Problem,
+    settings: &Settings,
+    console: &mut Console<'_>,
+) -> Result<Solution, SolveError> {
     let mut times = DeformTimes::default();
-    let mut solver = prepare(problem, settings, &mut times, console)?;
+    let mut solver = prepare(analysis, problem, settings, (&mut times, console))?;
     solver.set_targets(&problem.handles.targets)?;
     let iterated = iterate(&mut *solver, settings, &mut times, console);
     let mut positions = vec![DVec3::ZERO; problem.mesh.n_vertices()];
@@ -86,16 +103,11 @@ pub(super) fn solve(problem: &Problem, settings: &Settings, console: &mut Consol
 }
 
 fn prepare(
+    analysis: Arc<Analysis>,
     problem: &Problem,
     settings: &Settings,
-    times: &mut DeformTimes,
-    console: &mut Console<'_>,
+    (times, console): (&mut DeformTimes, &mut Console<'_>),
 ) -> Result<Box<dyn Deformer>, SolveError> {
-    console.progress(|| "analyzing the mesh".to_owned());
-    let clock = Instant::now();
-    let analysis = Arc::new(Analysis::new(problem.mesh.clone(), settings.weights));
-    times.order = milliseconds(clock);
-
     let held = &problem.handles.held;
     if let Some(other) = &settings.other {
         console.progress(|| "preparing the method".to_owned());
@@ -107,7 +119,10 @@ fn prepare(
 
     console.progress(|| "finding neighborhoods".to_owned());
     let clock = Instant::now();
-    let neighborhoods = Neighborhoods::new(&analysis, &problem.rigidity)?;
+    let neighborhoods = Neighborhoods::with_progress(&analysis, &problem.rigidity, &mut |part| {
+        console.progress(|| format!("finding neighborhoods: {:.0} %", (100.0 * part).floor()));
+        ControlFlow::Continue(())
+    })?;
     times.neighborhoods = milliseconds(clock);
 
     console.progress(|| "factorizing".to_owned());

@@ -3,11 +3,15 @@
 use std::ops::ControlFlow;
 use std::path::Path;
 
+use glam::DVec3;
 use pliant_meshfile::{MeshFile, OpenOptions, Weld, Welding};
-use pliant_solver::{Mesh, MeshError, SolveError};
+use pliant_solver::{Mesh, MeshError, SolveError, VertexId};
 
 use super::console::Console;
 use super::failure::Failure;
+
+/// Loose components named one by one; the others are only counted.
+const LOOSE_NAMED: usize = 5;
 
 /// Reads the mesh file at `path`, welded as is wished.
 pub(super) fn read(path: &Path, welding: Welding, console: &mut Console<'_>) -> Result<MeshFile, Failure> {
@@ -43,6 +47,40 @@ pub(super) fn unsolvable(source: SolveError, path: &Path, weld: &Weld) -> Failur
         }
         source => Failure::Solve { path, source },
     }
+}
+
+/// A result that is not finite must never reach a file.
+pub(super) fn check_finite(positions: &[DVec3], weld: &Weld) -> Result<(), Failure> {
+    match positions.iter().position(|position| !position.is_finite()) {
+        Some(point) => Err(Failure::NotFinite { vertex: weld.vertex_of_point[point] as usize }),
+        None => Ok(()),
+    }
+}
+
+/// Says which parts nothing holds: they stay at rest while the rest moves on.
+pub(super) fn loose(loose: &[(usize, VertexId)], weld: &Weld) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let in_file = |vertex: VertexId| weld.vertex_of_point[vertex.index()];
+    let (single, large): (Vec<_>, Vec<_>) = loose.iter().copied().partition(|&(count, _)| count == 1);
+    for &(count, first) in large.iter().take(LOOSE_NAMED) {
+        let first = in_file(first);
+        warnings.push(format!("component of {count} vertices has no handle and stays at rest (first: vertex {first})"));
+    }
+    if let Some(&(_, first)) = large.get(LOOSE_NAMED) {
+        let more = large.len() - LOOSE_NAMED;
+        let first = in_file(first);
+        warnings.push(format!("{more} more components have no handle and stay at rest (first: vertex {first})"));
+    }
+    if let Some(&(_, first)) = single.first() {
+        let (count, first) = (single.len(), in_file(first));
+        let noun = if count == 1 {
+            "vertex has no edge, no handle and stays"
+        } else {
+            "vertices have no edge, no handle and stay"
+        };
+        warnings.push(format!("{count} {noun} at rest (first: vertex {first})"));
+    }
+    warnings
 }
 
 #[cfg(test)]

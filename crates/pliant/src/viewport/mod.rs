@@ -26,7 +26,7 @@ mod textures;
 
 pub use camera::{Axis, Camera, Projection};
 pub use headless::{DeviceWatch, GpuError, Headless, watch_device};
-pub use picture::{picture, picture_on};
+pub use picture::{Pictures, picture, picture_on};
 pub use ramp::{energy_color, rigidity_color, soft_stiff_color, stretch_color};
 pub use renderer::{Renderer, samples_for};
 pub use scene::{Coloring, Dot, Line, Matcap, Preview, Shading, SurfaceFrame, Theme, ViewScene};

@@ -18,17 +18,41 @@ pub fn picture(scene: &ViewScene, size_px: [u32; 2]) -> Result<image::RgbaImage,
 /// # Errors
 /// [`GpuError::Unreadable`] when the device fails or complains underway: what it drew then is not the scene.
 pub fn picture_on(headless: &Headless, scene: &ViewScene, size_px: [u32; 2]) -> Result<image::RgbaImage, GpuError> {
-    // Complaints about earlier work are logged already and say nothing about this picture.
-    headless.take_error();
-    let mut renderer = Renderer::new(&headless.device, &headless.queue, SAMPLES);
-    // After each step, since the first complaint names the cause and later ones only what follows from it.
-    check(headless)?;
-    renderer.render(scene, size_px);
-    check(headless)?;
-    let picture = renderer.try_read_pixels();
-    // The device's own words say more than that nothing could be read.
-    check(headless)?;
-    picture
+    Pictures::new(headless)?.draw(scene, size_px)
+}
+
+/// Several pictures on one device: programs are compiled once, and arrays that scenes share are brought there once.
+pub struct Pictures<'a> {
+    headless: &'a Headless,
+    renderer: Renderer,
+}
+
+impl<'a> Pictures<'a> {
+    /// Prepares to draw.
+    ///
+    /// # Errors
+    /// [`GpuError::Unreadable`] when the device complains.
+    pub fn new(headless: &'a Headless) -> Result<Pictures<'a>, GpuError> {
+        // Complaints about earlier work are logged already and say nothing about these pictures.
+        headless.take_error();
+        let renderer = Renderer::new(&headless.device, &headless.queue, SAMPLES);
+        check(headless)?;
+        Ok(Pictures { headless, renderer })
+    }
+
+    /// One picture of a scene, opaque sRGB; a size beyond what the device can draw is clamped.
+    ///
+    /// # Errors
+    /// [`GpuError::Unreadable`] when the device fails or complains underway: what it drew then is not the scene.
+    pub fn draw(&mut self, scene: &ViewScene, size_px: [u32; 2]) -> Result<image::RgbaImage, GpuError> {
+        // After each step, since the first complaint names the cause and later ones only what follows from it.
+        self.renderer.render(scene, size_px);
+        check(self.headless)?;
+        let picture = self.renderer.try_read_pixels();
+        // The device's own words say more than that nothing could be read.
+        check(self.headless)?;
+        picture
+    }
 }
 
 /// Whether the device is still there and content.
