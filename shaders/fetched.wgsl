@@ -56,9 +56,13 @@ fn lit(in: Fetched) -> Lit {
     return Lit(in.clip, in.view, in.normal, in.color);
 }
 
-// The texture under the ramp. Takes derivatives: to be called by every fragment.
+// The texture under the ramp; nothing where it is cut out. Takes derivatives: to be called by every fragment.
 fn textured_lit(in: Fetched) -> Lit {
-    let under = in.base * textureSample(image, image_sampler, in.uv).rgb;
+    let texel = textureSample(image, image_sampler, in.uv);
+    if texel.a < 0.5 {
+        discard;
+    }
+    let under = in.base * texel.rgb;
     return Lit(in.clip, in.view, in.normal, vec4f(mix(under, in.color.rgb, picture.look.z), in.color.a));
 }
 

@@ -19,7 +19,7 @@ pub enum Wrapping {
     Clamp,
 }
 
-/// A picture as the file holds it: PNG, JPEG or whatever else it may be.
+/// A picture as the file holds it: PNG, JPEG, WebP or whatever else it may be.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
     /// Its file name, or its place in the file.
@@ -28,6 +28,8 @@ pub struct Picture {
     pub bytes: Vec<u8>,
     /// Beyond left and right, beyond top and bottom.
     pub wrapping: [Wrapping; 2],
+    /// Where its opacity, from 0 to 1, is less than this nothing is there; `None` where opacity means nothing.
+    pub cutout: Option<f32>,
 }
 
 /// Triangles that show the same picture, or none.
@@ -72,7 +74,7 @@ impl Gatherer {
         &mut self,
         name: String,
         bytes: Result<Vec<u8>, String>,
-        wrapping: [Wrapping; 2],
+        (wrapping, cutout): ([Wrapping; 2], Option<f32>),
     ) -> Option<usize> {
         let bytes = match bytes {
             Ok(_) if self.pictures.len() >= budget::PICTURES => Err("there are too many pictures".to_owned()),
@@ -82,7 +84,7 @@ impl Gatherer {
         match bytes {
             Ok(bytes) => {
                 self.left -= bytes.len() as u64;
-                self.pictures.push(Picture { name, bytes, wrapping });
+                self.pictures.push(Picture { name, bytes, wrapping, cutout });
                 Some(self.pictures.len() - 1)
             }
             Err(reason) => {

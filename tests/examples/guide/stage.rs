@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
+use color_quant::NeuQuant;
 use egui::{Key, Modifiers, Pos2, Vec2};
 use egui_kittest::Harness;
 use image::RgbaImage;
@@ -12,8 +13,12 @@ use pliant::solving::SolveState;
 
 /// Size of the window in points, and of the pictures in pixels: a page's width.
 const SIZE: Vec2 = Vec2::new(960.0, 640.0);
-/// Pixels drawn for one that is kept, along a side.
-const FINER: u32 = 2;
+/// Pixels drawn for one that is kept, along a side: enough for the grain to go.
+const FINER: u32 = 3;
+/// Colors of a picture, and how thoroughly they are chosen (1 is best, 30 quickest): 256 keep a picture to a third of its
+/// bytes, and are not told from all.
+const COLORS: usize = 256;
+const SAMPLING: i32 = 3;
 
 /// The window.
 pub(crate) struct Stage(Harness<'static, EditorApp>);
@@ -66,8 +71,20 @@ impl Stage {
         self.0.run_steps(3);
     }
 
+    /// Types into the field that has the focus.
+    pub(crate) fn type_text(&mut self, text: &str) {
+        self.0.event(egui::Event::Text(text.to_owned()));
+        self.0.run_steps(3);
+    }
+
     /// Drags with the left button along points of the window.
     pub(crate) fn drag(&mut self, path: &[Pos2]) {
+        self.draw(path);
+        self.let_go(path[path.len() - 1]);
+    }
+
+    /// Presses the left button and moves along points of the window.
+    pub(crate) fn draw(&mut self, path: &[Pos2]) {
         self.0.hover_at(path[0]);
         self.0.step();
         self.0.drag_at(path[0]);
@@ -78,8 +95,20 @@ impl Stage {
                 self.0.step();
             }
         }
-        self.0.drop_at(path[path.len() - 1]);
+    }
+
+    /// Lets the button go.
+    pub(crate) fn let_go(&mut self, at: Pos2) {
+        self.0.drop_at(at);
         self.0.run_steps(2);
+    }
+
+    /// Cards of kept poses get their pictures one after the other, from a thread.
+    pub(crate) fn wait_for_thumbnails(&mut self) {
+        for _ in 0..30 {
+            std::thread::sleep(Duration::from_millis(200));
+            self.0.run_steps(2);
+        }
     }
 
     /// Rests the pointer somewhere.
@@ -101,6 +130,18 @@ impl Stage {
 pub(crate) fn keep(drawn: &RgbaImage, finer: u32, file: &Path) -> Result<(), String> {
     let (width, height) = drawn.dimensions();
     let small = resize(drawn, width / finer, height / finer, FilterType::Triangle);
-    let opaque = image::DynamicImage::ImageRgba8(small).into_rgb8();
-    opaque.save(file).map_err(|error| format!("{}: {error}", file.display()))
+    write(&small, file).map_err(|error| format!("{}: {error}", file.display()))
+}
+
+/// Writes an opaque picture with a palette.
+fn write(picture: &RgbaImage, file: &Path) -> Result<(), png::EncodingError> {
+    let quantizer = NeuQuant::new(SAMPLING, COLORS, picture.as_raw());
+    let indices: Vec<u8> = picture.pixels().map(|pixel| quantizer.index_of(&pixel.0) as u8).collect();
+    let out = std::io::BufWriter::new(std::fs::File::create(file)?);
+    let mut encoder = png::Encoder::new(out, picture.width(), picture.height());
+    encoder.set_color(png::ColorType::Indexed);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_palette(quantizer.color_map_rgb());
+    encoder.set_compression(png::Compression::High);
+    encoder.write_header()?.write_image_data(&indices)
 }

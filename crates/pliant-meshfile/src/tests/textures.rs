@@ -156,3 +156,64 @@ fn broken_references_to_gltf_pictures_are_named_or_passed_over() {
         assert_eq!((textures.pictures.len(), textures.missing.len()), (0, n_missing), "{at} {value}");
     }
 }
+
+#[test]
+fn gltf_materials_say_what_is_cut_out() {
+    let cutout = |material: Value| {
+        let textures = gltf(|document| {
+            for (key, value) in material.as_object().expect("a record") {
+                document["materials"][0][key] = value.clone();
+            }
+        });
+        textures.textures().pictures[0].cutout
+    };
+    assert_eq!(cutout(json!({})), None);
+    assert_eq!(cutout(json!({"alphaMode": "OPAQUE", "alphaCutoff": 0.2})), None);
+    assert_eq!(cutout(json!({"alphaMode": "MASK"})), Some(0.5));
+    assert_eq!(cutout(json!({"alphaMode": "MASK", "alphaCutoff": 0.25})), Some(0.25));
+    let info = json!({"index": 0});
+    let faint = json!({"baseColorFactor": [1.0, 1.0, 1.0, 0.5], "baseColorTexture": info});
+    assert_eq!(cutout(json!({"alphaMode": "MASK", "alphaCutoff": 0.25, "pbrMetallicRoughness": faint})), Some(0.5));
+}
+
+#[test]
+fn gltf_pictures_of_extensions_are_brought_or_named_with_their_format() {
+    let of = |texture: Value| gltf(|document| document["textures"][0] = texture.clone()).textures();
+    let webp = of(json!({"extensions": {"EXT_texture_webp": {"source": 0}}}));
+    assert_eq!(names(&webp), [("Skin", &b"picture!"[..])]);
+    let ktx = json!({"KHR_texture_basisu": {"source": 0}});
+    assert_eq!(of(json!({"extensions": ktx})).missing, ["Skin (it is in KTX2, a format that cannot be shown)"]);
+    let both = of(json!({"source": 0, "extensions": ktx}));
+    assert_eq!((both.pictures.len(), both.missing.len()), (1, 0), "the picture for readers without the extension");
+}
+
+#[test]
+fn a_ply_file_brings_the_picture_of_its_comment() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    fs::write(folder.path().join("brick wall.png"), b"brick").expect("written");
+    let opened = |comments: &str, uv: bool| {
+        let (declared, [a, b, c]) =
+            if uv { ("property float s\nproperty float t\n", [" 0 0", " 1 0", " 0 1"]) } else { ("", [""; 3]) };
+        let text = format!(
+            "ply\nformat ascii 1.0\n{comments}element vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
+             {declared}element face 1\nproperty list uchar int vertex_indices\nend_header\n\
+             0 0 0{a}\n1 0 0{b}\n0 1 0{c}\n3 0 1 2\n"
+        );
+        fs::write(folder.path().join("a.ply"), text).expect("written");
+        open(&folder.path().join("a.ply")).expect("opens").textures()
+    };
+    let named = "comment TextureFile brick wall.png\n";
+    let textures = opened(named, true);
+    assert_eq!(names(&textures), [("brick wall.png", &b"brick"[..])]);
+    assert_eq!((textures.runs[0].picture, textures.uvs[0]), (Some(0), [Vec2::ZERO, Vec2::X, Vec2::Y]));
+    for (comments, uv, reason) in [
+        (named, false, "no texture coordinates"),
+        ("comment TextureFile a.png\ncomment TextureFile b.png\n", true, "several"),
+        ("comment TextureFile ../secret.png\n", true, "outside the folder"),
+    ] {
+        let textures = opened(comments, uv);
+        assert!(textures.pictures.is_empty() && !textures.missing.is_empty(), "{comments}");
+        assert!(textures.missing[0].contains(reason), "{comments}: {:?}", textures.missing);
+    }
+    assert_eq!(opened("comment TextureFiles are nice\n", true), Textures::default());
+}

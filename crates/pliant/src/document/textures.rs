@@ -3,7 +3,8 @@
 use std::io::Cursor;
 use std::sync::Arc;
 
-use image::{ImageReader, Limits};
+use image::{DynamicImage, ImageReader, Limits, RgbImage, RgbaImage};
+use image_webp::WebPDecoder;
 use pliant_meshfile::{MeshFile, Picture, Textures, Wrapping};
 
 use crate::viewport::{Texture, TextureSet, Wrap};
@@ -61,17 +62,9 @@ pub(super) fn decode(file: &MeshFile) -> Decoded {
 }
 
 fn decoded(picture: &Picture) -> Result<Texture, String> {
-    let mut reader =
-        ImageReader::new(Cursor::new(&picture.bytes)).with_guessed_format().map_err(|error| error.to_string())?;
-    if reader.format().is_none() {
-        return Err("neither PNG nor JPEG".into());
-    }
-    let mut limits = Limits::default();
-    limits.max_image_width = Some(LARGEST_PICTURE);
-    limits.max_image_height = Some(LARGEST_PICTURE);
-    limits.max_alloc = Some(DECODING_BYTES);
-    reader.limits(limits);
-    let image = reader.decode().map_err(|error| error.to_string())?.into_rgba8();
+    let is_webp = picture.bytes.starts_with(b"RIFF") && picture.bytes.get(8..12) == Some(b"WEBP");
+    let mut image = if is_webp { webp(&picture.bytes)? } else { png_or_jpeg(&picture.bytes)? };
+    image.pixels_mut().for_each(|pixel| pixel.0[3] = opacity(pixel.0[3], picture.cutout));
     let wrap = picture.wrapping.map(|wrapping| match wrapping {
         Wrapping::Repeat => Wrap::Repeat,
         Wrapping::Mirror => Wrap::Mirror,
@@ -82,6 +75,46 @@ fn decoded(picture: &Picture) -> Result<Texture, String> {
         texture.shrink();
     }
     Ok(texture)
+}
+
+/// What the renderer cuts out is less than half opaque: here the cutout of the file lies at the half. Smaller copies are
+/// means, so it is no step.
+fn opacity(alpha: u8, cutout: Option<f32>) -> u8 {
+    let Some(cutout) = cutout else { return u8::MAX };
+    ((f32::from(alpha) / 255.0 - cutout + 0.5).clamp(0.0, 1.0) * 255.0).round() as u8
+}
+
+fn png_or_jpeg(bytes: &[u8]) -> Result<RgbaImage, String> {
+    let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format().map_err(|error| error.to_string())?;
+    if reader.format().is_none() {
+        return Err("not PNG, JPEG or WebP".into());
+    }
+    let mut limits = Limits::default();
+    limits.max_image_width = Some(LARGEST_PICTURE);
+    limits.max_image_height = Some(LARGEST_PICTURE);
+    limits.max_alloc = Some(DECODING_BYTES);
+    reader.limits(limits);
+    Ok(reader.decode().map_err(|error| error.to_string())?.into_rgba8())
+}
+
+/// Of a moving picture the first one.
+fn webp(bytes: &[u8]) -> Result<RgbaImage, String> {
+    let said = |error: image_webp::DecodingError| error.to_string();
+    let mut decoder = WebPDecoder::new(Cursor::new(bytes)).map_err(said)?;
+    let (width, height) = decoder.dimensions();
+    if width.max(height) > LARGEST_PICTURE {
+        return Err(format!("{width} × {height} pixels are more than {LARGEST_PICTURE} a side"));
+    }
+    decoder.set_memory_limit(DECODING_BYTES as usize);
+    let size = decoder.output_buffer_size().ok_or("it is too large")?;
+    let mut pixels = vec![0; size];
+    decoder.read_image(&mut pixels).map_err(said)?;
+    let image = if decoder.has_alpha() {
+        RgbaImage::from_raw(width, height, pixels)
+    } else {
+        RgbImage::from_raw(width, height, pixels).map(|image| DynamicImage::ImageRgb8(image).into_rgba8())
+    };
+    image.ok_or_else(|| "it has fewer pixels than it says".into())
 }
 
 /// Halves the largest until all together take no more than so many bytes.
@@ -118,7 +151,7 @@ mod tests {
     }
 
     fn picture(bytes: Vec<u8>) -> Picture {
-        Picture { name: "red.png".into(), bytes, wrapping: [Wrapping::Clamp, Wrapping::Mirror] }
+        Picture { name: "red.png".into(), bytes, wrapping: [Wrapping::Clamp, Wrapping::Mirror], cutout: None }
     }
 
     #[test]
@@ -132,6 +165,29 @@ mod tests {
         for bytes in [large, png(32)[..60].to_vec(), b"RIFF1234WEBPVP8 ".to_vec(), Vec::new()] {
             let why = decoded(&picture(bytes)).expect_err("cannot be shown");
             assert!(!why.is_empty() && !why.contains('\n'), "{why}");
+        }
+    }
+
+    #[test]
+    fn webp_pictures_are_decoded_with_and_without_opacity() {
+        for color in [image_webp::ColorType::Rgb8, image_webp::ColorType::Rgba8] {
+            let mut bytes = Vec::new();
+            let pixel: &[u8] = if color == image_webp::ColorType::Rgb8 { &[200, 30, 40] } else { &[200, 30, 40, 90] };
+            let encoder = image_webp::WebPEncoder::new(&mut bytes);
+            encoder.encode(&pixel.repeat(64), 8, 8, color).expect("memory");
+            let texture = decoded(&picture(bytes.clone())).expect("a sound picture");
+            assert_eq!((texture.size, &texture.levels[0][..4]), ([8, 8], &[200, 30, 40, 255][..]), "{color:?}");
+            assert!(decoded(&picture(bytes[..bytes.len() / 2].to_vec())).is_err(), "{color:?}, cut off");
+        }
+    }
+
+    #[test]
+    fn what_is_less_opaque_than_the_cutout_is_less_than_half_opaque() {
+        for (alpha, cutout, is_there) in [(0, None, true), (127, Some(0.5), false), (128, Some(0.5), true)] {
+            assert_eq!(opacity(alpha, cutout) >= 128, is_there, "{alpha} and {cutout:?}");
+        }
+        for (alpha, cutout, is_there) in [(60, Some(0.25), false), (70, Some(0.25), true), (255, Some(4.0), false)] {
+            assert_eq!(opacity(alpha, cutout) >= 128, is_there, "{alpha} and {cutout:?}");
         }
     }
 

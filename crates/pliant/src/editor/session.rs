@@ -54,6 +54,8 @@ pub struct Session {
     pub welding: Welding,
     /// What belongs to the person.
     pub habits: Habits,
+    /// Why the textures of what is open cannot be shown on this device, if so.
+    pub textures_obstacle: Option<&'static str>,
     /// Rigidity being learned from poses, while its panel is open.
     pub learning: Option<Learning>,
     /// Methods side by side, while that is open.
@@ -107,6 +109,7 @@ impl Session {
             status: Status::default(),
             welding: Welding::Exact,
             habits: Habits::default(),
+            textures_obstacle: None,
             learning: None,
             compare: None,
             typed_placement: None,

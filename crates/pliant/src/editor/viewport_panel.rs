@@ -11,7 +11,9 @@ use super::{Action, NoticeKind, Session, theme};
 use crate::document::{GroupKind, Selection, rim};
 use crate::solving::SolveState;
 use crate::tools::{Cursor, Input, Label, Modifiers, Pointer, ToolKind};
-use crate::viewport::{Camera, DeviceWatch, Dot, Line, Renderer, SurfaceFrame, ViewScene, samples_for, watch_device};
+use crate::viewport::{
+    Camera, DeviceWatch, Dot, Line, Renderer, SurfaceFrame, TextureSet, ViewScene, samples_for, watch_device,
+};
 
 /// Larger groups show only some of their vertices: thousands of dots hide the surface (by eye).
 const DOTS_PER_GROUP: usize = 100;
@@ -60,6 +62,8 @@ pub(super) struct ViewportPanel {
     render_state: eframe::egui_wgpu::RenderState,
     watch: DeviceWatch,
     has_told_of_loss: bool,
+    /// Textures that cannot be shown here, once that was told.
+    told_of: Option<Arc<TextureSet>>,
     texture: Option<(egui::TextureId, u64)>,
     gesture: Option<Gesture>,
     /// The button that began the gesture: only its release ends it.
@@ -90,6 +94,7 @@ impl ViewportPanel {
             is_software: info.device_type == wgpu::DeviceType::Cpu,
             watch: watch_device(&render_state.device),
             has_told_of_loss: false,
+            told_of: None,
             id: None,
             render_state: render_state.clone(),
             moved_at: std::time::Instant::now(),
@@ -156,6 +161,16 @@ impl ViewportPanel {
             self.has_told_of_loss = true;
             let text = format!("The graphics device was lost ({why}). Save your work (Ctrl+S) and start Pliant again");
             session.notices.push(NoticeKind::Error, text);
+        }
+    }
+
+    /// Says once that textures cannot be shown on this device; the menu goes on saying so.
+    fn tell_of_textures(&mut self, scene: &ViewScene, session: &mut Session) {
+        session.textures_obstacle = self.renderer.textures_obstacle(scene);
+        let (Some(why), Some(set)) = (session.textures_obstacle, &scene.textures) else { return };
+        if !self.told_of.as_ref().is_some_and(|told| Arc::ptr_eq(told, set)) {
+            self.told_of = Some(set.clone());
+            session.notices.push(NoticeKind::Warning, format!("Textures are not shown: {why}"));
         }
     }
 
@@ -281,6 +296,7 @@ impl ViewportPanel {
             ui.painter().rect_filled(rect, 0.0, theme::palette(session.look.theme).well);
             return;
         };
+        self.tell_of_textures(&scene, session);
         self.shown = Some(scene.clone());
         let size = (rect.size() * pixels_per_point).round().max(egui::Vec2::splat(1.0));
         let begun = std::time::Instant::now();

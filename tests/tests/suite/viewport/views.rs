@@ -167,6 +167,32 @@ fn textures_lie_upright_on_the_surface_under_the_ramp() {
 }
 
 #[test]
+fn what_is_less_than_half_opaque_is_cut_out_of_the_surface_and_of_its_depth() {
+    let scene = textured();
+    // The left half is cut out; a dot lies behind each half.
+    let left = |x: u32, _: u32| image::Rgba([200, 200, 200, if x < 8 { 60 } else { 255 }]);
+    let set = TextureSet {
+        images: vec![Texture::new(RgbaImage::from_fn(16, 16, left), [Wrap::Clamp; 2])],
+        ..TextureSet::clone(scene.textures.as_deref().expect("textures"))
+    };
+    let dots = [-0.5, 0.5].map(|x| Dot { position: Vec3::new(x, 0.3, -1.0), color: YELLOW, radius_px: 6.0 });
+    let empty = draw(&ViewScene { triangles: Arc::new([]), textures: None, ..scene.clone() });
+    for (wireframe, see_through) in [(false, false), (true, false), (false, true)] {
+        let cut = ViewScene { textures: Some(Arc::new(set.clone())), wireframe, see_through, ..scene.clone() };
+        let picture = draw(&cut);
+        let (gone, there) = (Vec3::new(-0.4, -0.5, 0.0), Vec3::new(0.4, -0.5, 0.0));
+        let far = |place| difference(at(&picture, &cut, place), at(&empty, &cut, place));
+        assert!(far(gone) <= 2.0, "something is left of the cut out half: {}", far(gone));
+        assert!(far(there) > 20.0, "the other half is gone: {}", far(there));
+    }
+    let cut = ViewScene { textures: Some(Arc::new(set)), dots: dots.into(), ..scene };
+    let picture = draw(&cut);
+    let yellow = |dot: &Dot| difference(at(&picture, &cut, dot.position), [255.0, 210.0, 40.0]);
+    assert!(yellow(&dots[0]) <= 2.0, "seen through the hole it is dimmed: {}", yellow(&dots[0]));
+    assert!(yellow(&dots[1]) > 60.0, "behind the surface it is not: {}", yellow(&dots[1]));
+}
+
+#[test]
 fn a_texture_belongs_to_its_run_of_triangles_and_is_brought_once() {
     let Headless { device, queue, .. } = headless();
     let mut renderer = Renderer::new(device, queue, 1);

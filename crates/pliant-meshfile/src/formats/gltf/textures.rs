@@ -59,8 +59,8 @@ pub(super) fn textures(source: &GltfSource, mesh: Before<'_>) -> Textures {
 struct Reader<'a> {
     source: &'a GltfSource,
     gatherer: Gatherer,
-    /// Pictures by image and wrapping; `None` for those that cannot be had.
-    known: HashMap<(usize, [Wrapping; 2]), Option<usize>>,
+    /// Pictures by image, wrapping and the bits of their cutout; `None` for those that cannot be had.
+    known: HashMap<(usize, [Wrapping; 2], Option<u32>), Option<usize>>,
 }
 
 impl Reader<'_> {
@@ -76,26 +76,42 @@ impl Reader<'_> {
             self.gatherer.missing.push(format!("texture {index} ({reason})"));
             return None;
         }
-        let picture = self.of_texture(index)?;
+        let picture = self.of_texture(index, cutout(material))?;
         Some(Laid { picture, transform: transform.map(transform_of) })
     }
 
-    fn of_texture(&mut self, index: usize) -> Option<usize> {
+    fn of_texture(&mut self, index: usize, cutout: Option<f32>) -> Option<usize> {
         let document = &self.source.document;
         let texture = json::list(document, "textures").ok()?.get(index)?;
-        let Some(image) = texture.get("source").and_then(Value::as_u64) else {
-            self.gatherer.missing.push(format!("texture {index} (it is in a format that cannot be shown)"));
+        let of_extension = |name: &str| texture.get("extensions")?.get(name)?.get("source")?.as_u64();
+        let source = texture.get("source").and_then(Value::as_u64);
+        let Some(image) = source.or_else(|| of_extension("EXT_texture_webp")) else {
+            let other = OTHER_FORMATS.iter().find_map(|(name, format)| Some((of_extension(name)?, *format)));
+            let (what, format) = match other {
+                Some((image, format)) => (self.name(image as usize), format),
+                None => (format!("texture {index}"), "a format"),
+            };
+            self.gatherer.missing.push(format!("{what} (it is in {format} that cannot be shown)"));
             return None;
         };
         let wrapping = wrapping(document, texture);
-        let key = (image as usize, wrapping);
+        let key = (image as usize, wrapping, cutout.map(f32::to_bits));
         if let Some(&known) = self.known.get(&key) {
             return known;
         }
         let (name, bytes) = self.image(key.0);
-        let picture = self.gatherer.take(name, bytes, wrapping);
+        let picture = self.gatherer.take(name, bytes, (wrapping, cutout));
         self.known.insert(key, picture);
         picture
+    }
+
+    /// What an image is called, for messages.
+    fn name(&self, index: usize) -> String {
+        let image = json::list(&self.source.document, "images").unwrap_or_default().get(index);
+        let uri = image.and_then(|image| image.get("uri")).and_then(Value::as_str);
+        let file = uri.filter(|uri| !uri.starts_with("data:")).map(rigidity::quoted);
+        let name = || image.and_then(json::name).map(rigidity::quoted);
+        file.or_else(name).unwrap_or_else(|| format!("image {index}"))
     }
 
     /// Name and bytes of an image.
@@ -120,6 +136,22 @@ impl Reader<'_> {
         });
         (name, bytes)
     }
+}
+
+/// Extensions that bring pictures in formats that are not decoded.
+const OTHER_FORMATS: [(&str, &str); 3] = [
+    ("KHR_texture_basisu", "KTX2, a format"),
+    ("MSFT_texture_dds", "DDS, a format"),
+    ("EXT_texture_avif", "AVIF, a format"),
+];
+
+/// The opacity of the picture below which nothing of a material is there, if it is of that kind. What the file asks of the
+/// product of picture and color is asked of the picture alone.
+fn cutout(material: &Value) -> Option<f32> {
+    let is_mask = material.get("alphaMode").and_then(Value::as_str) == Some("MASK");
+    let cutoff = material.get("alphaCutoff").and_then(Value::as_f64).unwrap_or(0.5) as f32;
+    let [.., opacity] = base_color(material);
+    is_mask.then(|| cutoff / opacity.max(f32::MIN_POSITIVE))
 }
 
 /// Where the corners of a picture move: an offset, and a rotation of what was scaled.

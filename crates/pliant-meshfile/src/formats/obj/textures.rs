@@ -54,7 +54,7 @@ pub(super) fn textures(source: &ObjSource) -> Textures {
             }
             let wrapping = if map.is_clamped { Wrapping::Clamp } else { Wrapping::Repeat };
             let bytes = gatherer.read(source.folder.as_ref(), &map.file);
-            let picture = gatherer.take(quoted(&map.file), bytes, [wrapping; 2]);
+            let picture = gatherer.take(quoted(&map.file), bytes, ([wrapping; 2], None));
             known.push((map, picture));
             picture
         });

@@ -63,13 +63,21 @@ pub(super) struct Header {
     pub(super) line_end: &'static str,
     /// What was passed over.
     pub(super) warnings: Vec<Warning>,
+    /// Pictures that comments name, as MeshLab writes them.
+    pub(super) pictures: Vec<String>,
 }
 
 impl Header {
     pub(super) fn parse(bytes: &[u8]) -> Result<Header, Fault> {
         let line_end = magic(bytes)?;
-        let mut parser =
-            Parser { bytes, encoding: None, elements: Vec::new(), n_declarations: 0, warnings: Vec::new() };
+        let mut parser = Parser {
+            bytes,
+            encoding: None,
+            elements: Vec::new(),
+            n_declarations: 0,
+            warnings: Vec::new(),
+            pictures: Vec::new(),
+        };
         let mut at = 3 + line_end.len();
         loop {
             let end = (bytes[at..].iter().position(|&b| b == if line_end == "\r" { b'\r' } else { b'\n' }))
@@ -79,8 +87,8 @@ impl Header {
             if parser.line(&mut words, end)? {
                 let missing = || Fault::Container("names no format in its header".into());
                 let encoding = parser.encoding.ok_or_else(missing)?;
-                let Parser { elements, warnings, .. } = parser;
-                return Ok(Header { encoding, elements, body: end, line_end, warnings });
+                let Parser { elements, warnings, pictures, .. } = parser;
+                return Ok(Header { encoding, elements, body: end, line_end, warnings, pictures });
             }
             at = end;
         }
@@ -110,6 +118,7 @@ struct Parser<'a> {
     elements: Vec<Element>,
     n_declarations: u64,
     warnings: Vec<Warning>,
+    pictures: Vec<String>,
 }
 
 impl<'a> Parser<'a> {
@@ -120,6 +129,9 @@ impl<'a> Parser<'a> {
         let Some(keyword) = words.on_line() else { return Ok(false) };
         match keyword.text {
             b"end_header" => return Ok(true),
+            b"comment" if self.pictures.len() < budget::PICTURES => {
+                self.pictures.extend(picture(&self.bytes[at..end]));
+            }
             b"comment" | b"obj_info" => {}
             b"format" => self.encoding = Some(encoding(words).map_err(|problem| Fault::at(line(), problem))?),
             b"element" => {
@@ -148,6 +160,16 @@ impl<'a> Parser<'a> {
         budget::check("elements and properties in the header", self.n_declarations, MAX_DECLARATIONS)?;
         Ok(false)
     }
+}
+
+/// The picture that a comment names: `comment TextureFile brick wall.png`.
+fn picture(line: &[u8]) -> Option<String> {
+    let comment = std::str::from_utf8(line).ok()?.trim().strip_prefix("comment")?;
+    let name = comment.trim_start().strip_prefix("TextureFile")?;
+    let is_word = name.starts_with([' ', '\t']);
+    let name = name.trim().replace('\\', "/");
+    let name = name.strip_prefix("./").unwrap_or(&name);
+    (is_word && !name.is_empty()).then(|| name.to_owned())
 }
 
 fn words_line(bytes: &[u8], at: usize) -> String {

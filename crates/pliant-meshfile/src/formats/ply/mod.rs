@@ -11,13 +11,15 @@ mod read;
 mod rewrite;
 mod roles;
 mod scalar;
+mod textures;
 
 pub(super) use export::write;
 
-use super::source::{Edit, Input, Opened, Output, Source};
+use super::source::{Before, Edit, Input, Opened, Output, Source};
 use super::turning;
+use crate::folder::Folder;
 use crate::shape::{Corner, NO_MATERIAL, NONE, Part, Shape, ShapePart};
-use crate::{Fault, Format, SaveError};
+use crate::{Fault, Format, SaveError, Textures};
 use glam::Vec3;
 use header::Header;
 use roles::Roles;
@@ -36,6 +38,8 @@ struct PlySource {
     normals: Vec<Vec3>,
     polygons: Vec<Range<u32>>,
     name: String,
+    /// Where its pictures are.
+    folder: Option<Folder>,
 }
 
 /// Reads a PLY file.
@@ -63,6 +67,7 @@ pub(super) fn read(input: Input<'_>) -> Result<Opened, Fault> {
             normals: vertices.normals,
             polygons: parsed.cut.polygons,
             name,
+            folder: input.folder.cloned(),
         }),
     })
 }
@@ -94,6 +99,14 @@ impl Source for PlySource {
 
     fn polygons(&self) -> &[Range<u32>] {
         &self.polygons
+    }
+
+    fn textures(&self, mesh: Before<'_>) -> Textures {
+        textures::textures(self, mesh)
+    }
+
+    fn references(&self) -> Vec<String> {
+        self.header.pictures.clone()
     }
 
     fn shape(&self, edit: &Edit<'_>) -> Shape {

@@ -55,9 +55,13 @@ fn name(ui: &Ui, response: &Response, name: &str) {
 
 /// The tooltip of an action, with its key if it has one.
 fn tip(ui: &Ui, session: &Session, action: Action) -> String {
-    match session.habits.shortcuts.text(action, ui.ctx()) {
+    let tip = match session.habits.shortcuts.text(action, ui.ctx()) {
         key if key.is_empty() => action.tooltip().to_owned(),
         key => format!("{} ({key})", action.tooltip()),
+    };
+    match session.textures_obstacle.filter(|_| action == Action::COLOR_PLAIN) {
+        Some(why) => format!("{tip}. Textures are not shown: {why}"),
+        None => tip,
     }
 }
 

@@ -120,6 +120,12 @@ impl Renderer {
         (&self.targets.color_view, self.generation)
     }
 
+    /// Why the textures of a scene cannot be shown on this device, if it has any.
+    pub fn textures_obstacle(&self, scene: &ViewScene) -> Option<&'static str> {
+        scene.textures.as_ref()?;
+        self.surface.textures_obstacle(scene.frame.positions.len())
+    }
+
     /// How many bytes the last picture brought to the device: none if nothing changed.
     pub fn uploaded_bytes(&self) -> u64 {
         self.uploaded

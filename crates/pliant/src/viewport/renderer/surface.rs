@@ -180,11 +180,20 @@ impl Surface {
         true
     }
 
-    /// Whether there are textures to see, and vertices can be fetched by number for them.
+    /// Why no textures can be shown on a surface of so many vertices, if so: vertices must be fetched by number for them.
+    pub(super) fn textures_obstacle(&self, n_vertices: usize) -> Option<&'static str> {
+        let bytes = (n_vertices * size_of::<glam::Vec3>()) as u64;
+        match self.largest_binding {
+            0 => Some("this graphics device has not enough storage buffers for them"),
+            most if bytes > most => Some("the mesh is too large for them on this graphics device"),
+            _ => None,
+        }
+    }
+
+    /// Whether there are textures to see, and they can be shown.
     fn can_show_textures(&self, scene: &ViewScene) -> bool {
-        let bytes = size_of_val(scene.frame.positions.as_slice()) as u64;
-        let fits = bytes <= self.largest_binding;
-        fits && scene.shows_textures() && scene.textures.as_ref().is_some_and(|set| set.fits(scene.triangles.len()))
+        let is_able = self.textures_obstacle(scene.frame.positions.len()).is_none();
+        is_able && scene.shows_textures() && scene.textures.as_ref().is_some_and(|set| set.fits(scene.triangles.len()))
     }
 
     fn upload_textures(&mut self, gpu: &Gpu, layouts: &Layouts, scene: &ViewScene, is_textured: bool) {

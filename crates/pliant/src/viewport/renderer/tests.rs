@@ -1,9 +1,9 @@
 //! How the renderer gets by on devices that can do less.
 
 use super::super::test_scenes::sheet;
-use super::super::{Camera, Headless, SurfaceFrame};
+use super::super::{Camera, Headless, SurfaceFrame, Texture, TextureSet, Wrap};
 use super::*;
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use std::sync::Arc;
 
 const SIZE: [u32; 2] = [120, 90];
@@ -37,6 +37,39 @@ fn edges_are_lines_where_vertices_cannot_be_fetched() {
     let wired = drawn_within(webgl, &scene);
     let changed = plain.pixels().zip(wired.pixels()).filter(|(a, b)| a.0[1] > b.0[1].saturating_add(20)).count();
     assert!(changed > 200, "{changed} pixels got darker");
+}
+
+#[test]
+fn textures_that_a_device_cannot_show_are_told_and_the_surface_is_drawn_without() {
+    let textured = |cells: u32| {
+        let plain = sheet(cells);
+        let image =
+            Texture::new(image::RgbaImage::from_pixel(2, 2, image::Rgba([250, 10, 10, 255])), [Wrap::Repeat; 2]);
+        let n = plain.triangles.len();
+        let set = TextureSet { images: vec![image], runs: vec![(0..n as u32, Some(0))], uvs: vec![[Vec2::ZERO; 3]; n] };
+        ViewScene { textures: Some(Arc::new(set)), ..plain }
+    };
+    let webgl = wgpu::Limits { max_texture_dimension_2d: 1024, ..wgpu::Limits::downlevel_webgl2_defaults() };
+    let narrow = wgpu::Limits { max_storage_buffer_binding_size: 16_384, ..wgpu::Limits::defaults() };
+    for (limits, cells, expected) in [
+        (wgpu::Limits::defaults(), CELLS, None),
+        (webgl, CELLS, Some("storage buffers")),
+        (narrow.clone(), CELLS, Some("too large")),
+        (narrow, 8, None),
+    ] {
+        let headless = Headless::with_limits(limits).unwrap_or_else(|error| panic!("{error}"));
+        let mut renderer = Renderer::new(&headless.device, &headless.queue, 1);
+        let scene = textured(cells);
+        let said = renderer.textures_obstacle(&scene);
+        assert_eq!(said.is_some(), expected.is_some(), "{cells} cells: {said:?}");
+        assert!(expected.is_none_or(|words| said.is_some_and(|said| said.contains(words))), "{said:?}");
+        renderer.render(&scene, SIZE);
+        let picture = renderer.try_read_pixels().expect("the picture can be read");
+        assert_eq!(headless.take_error(), None, "the device complained");
+        let [r, g, _, _] = picture.get_pixel(SIZE[0] / 2, SIZE[1] / 2).0.map(i32::from);
+        assert_eq!(r > g + 60, expected.is_none(), "{cells} cells: red {r}, green {g} in the middle");
+        assert_eq!(renderer.textures_obstacle(&sheet(cells)), None, "there are none to show");
+    }
 }
 
 #[test]
