@@ -29,7 +29,11 @@ pub(crate) fn run(folder: &Path) -> Result<(), Failure> {
     if total > ALL_FILES {
         faults.push(format!("all files together have {total} bytes, more than {ALL_FILES}"));
     }
-    if faults.is_empty() { Ok(()) } else { Err(Failure::Faults(faults)) }
+    if !faults.is_empty() {
+        return Err(Failure::Faults(faults));
+    }
+    eprintln!("gallery: the page and its {} files are whole", there.len());
+    Ok(())
 }
 
 /// Pictures and tables in a folder, by name.

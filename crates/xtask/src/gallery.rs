@@ -4,11 +4,13 @@
 use crate::failure::Failure;
 use crate::{program, vulkan};
 
+/// How it is built and run.
+const RUN: [&str; 4] = ["--release", "--package", "pliant-gallery", "--"];
+
 /// Draws, or with `check` only looks whether the page is whole.
 pub(crate) fn run(check: bool) -> Result<(), Failure> {
-    if check {
-        return program::run("--package pliant-gallery", ["--quiet", "--package", "pliant-gallery", "--", "--check"]);
+    if !check {
+        vulkan::ensure()?;
     }
-    vulkan::ensure()?;
-    program::run("--package pliant-gallery", ["--release", "--package", "pliant-gallery"])
+    program::run("--package pliant-gallery", RUN.into_iter().chain(check.then_some("--check")))
 }
