@@ -8,5 +8,7 @@ pub mod learning;
 pub mod posing;
 pub mod project;
 pub mod solving;
+#[cfg(test)]
+mod test_scenes;
 pub mod tools;
 pub mod viewport;

@@ -130,33 +130,22 @@ mod tests {
     use std::ops::ControlFlow;
 
     use glam::DAffine3;
-    use pliant_meshfile::MeshFile;
 
     use super::*;
-    use crate::document::{Command, Document, GroupKind, Model};
+    use crate::document::{Command, Document, GroupKind};
     use crate::solving::{Engine, SolveReport, SolveRequest, SolveState};
+    use crate::test_scenes::{flat_sheet, held_at_two_sides, move_handle};
 
     const ROW: u32 = 21;
 
     /// A flat sheet held along one side, with a handle on the other.
     fn sheet() -> Document {
-        let points = (0..ROW * ROW).map(|v| DVec3::new(f64::from(v % ROW), f64::from(v / ROW), 0.0)).collect();
-        let cells = (0..ROW * (ROW - 1)).filter(|v| v % ROW < ROW - 1);
-        let triangles = cells.flat_map(|v| [[v, v + 1, v + ROW + 1], [v, v + ROW + 1, v + ROW]]).collect();
-        let file = MeshFile::from_triangles("sheet", points, triangles);
-        let mut document = Document::new(Arc::new(Model::from_file(file).expect("a good mesh")));
-        for (kind, first) in [(GroupKind::Anchor, 0), (GroupKind::Handle, ROW * (ROW - 1))] {
-            let vertices = (first..first + ROW).map(VertexId).collect();
-            document.apply(Command::Hold { kind, vertices }).expect("they exist");
-        }
-        document
+        held_at_two_sides(flat_sheet(ROW), ROW)
     }
 
     /// Lifts the handle.
     fn lift(document: &mut Document, height: f64) {
-        let group = document.scene().groups[1].id;
-        let motion = DAffine3::from_translation(DVec3::new(0.0, -0.1 * height, height));
-        document.apply(Command::Move { group, motion }).expect("finite");
+        move_handle(document, DAffine3::from_translation(DVec3::new(0.0, -0.1 * height, height)));
     }
 
     fn adopt(engine: &mut Engine, document: &Document) {

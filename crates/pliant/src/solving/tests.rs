@@ -5,37 +5,27 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use glam::{DAffine3, DQuat, DVec3};
-use pliant_meshfile::MeshFile;
 use pliant_solver::{Analysis, Deformer, LooseComponents, Method as SolverMethod, Minimizer, Start, VertexId, Weights};
 
 use super::*;
-use crate::document::{Command, Document, GroupKind, Method, MethodKind, Model, held_by};
+use crate::document::{Command, Document, GroupKind, Method, MethodKind, held_by};
+use crate::test_scenes::{held_at_two_sides, move_handle, uneven_sheet};
 
 const ROW: u32 = 17;
 
-/// An uneven sheet held along one side, with a handle on the other. (A flat one can stay on a ridge between valleys.)
+/// An uneven sheet held along one side, with a handle on the other.
 fn sheet() -> Document {
-    let at = |x: f64, y: f64| DVec3::new(x, y, 0.9 * (0.7 * x).sin() * (0.5 * y + 0.2).cos() + 0.1 * x);
-    let points = (0..ROW * ROW).map(|v| at(f64::from(v % ROW), f64::from(v / ROW))).collect();
-    let cells = (0..ROW * (ROW - 1)).filter(|v| v % ROW < ROW - 1);
-    let triangles = cells.flat_map(|v| [[v, v + 1, v + ROW + 1], [v, v + ROW + 1, v + ROW]]).collect();
-    let file = MeshFile::from_triangles("sheet", points, triangles);
-    let mut document = Document::new(Arc::new(Model::from_file(file).expect("a good mesh")));
-    for (kind, first) in [(GroupKind::Anchor, 0), (GroupKind::Handle, ROW * (ROW - 1))] {
-        let vertices = (first..first + ROW).map(VertexId).collect();
-        document.apply(Command::Hold { kind, vertices }).expect("they exist");
-    }
+    let mut document = held_at_two_sides(uneven_sheet(ROW), ROW);
     document.apply(Command::FillAll(2)).expect("a good size");
     document
 }
 
 /// Turns the handle up about the middle of the sheet.
 fn turn_up(document: &mut Document, degrees: f64) {
-    let group = document.scene().groups[1].id;
     let hinge = DVec3::new(0.0, 8.0, 0.0);
     let turn = DQuat::from_rotation_x(degrees.to_radians());
     let motion = DAffine3::from_translation(hinge) * DAffine3::from_quat(turn) * DAffine3::from_translation(-hinge);
-    document.apply(Command::Move { group, motion }).expect("finite");
+    move_handle(document, motion);
 }
 
 fn choose(document: &mut Document, kind: MethodKind) {

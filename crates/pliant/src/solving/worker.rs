@@ -180,20 +180,15 @@ fn failure(panic: &(dyn std::any::Any + Send)) -> SolveState {
 #[cfg(test)]
 mod tests {
     use glam::DVec3;
-    use pliant_meshfile::MeshFile;
     use pliant_solver::VertexId;
 
     use super::*;
-    use crate::document::{Command, Document, GroupKind, Model};
+    use crate::document::{Command, Document, GroupKind};
+    use crate::test_scenes::flat_sheet;
 
     /// A flat sheet of `n` by `n` cells, held at a corner.
     fn sheet(n: u32) -> Document {
-        let row = n + 1;
-        let points = (0..row * row).map(|v| DVec3::new(f64::from(v % row), f64::from(v / row), 0.0)).collect();
-        let cells = (0..n * row).filter(|v| v % row < n);
-        let triangles = cells.flat_map(|v| [[v, v + 1, v + row + 1], [v, v + row + 1, v + row]]).collect();
-        let file = MeshFile::from_triangles("sheet", points, triangles);
-        let mut document = Document::new(Arc::new(Model::from_file(file).expect("a good mesh")));
+        let mut document = flat_sheet(n + 1);
         hold(&mut document, 0);
         document
     }

@@ -11,21 +11,13 @@ use pliant_solver::{Analysis, LooseComponents, Method as SolverMethod, Minimizer
 use super::*;
 use crate::document::{Command, Document, GroupKind, Method, Model, held_by};
 use crate::solving::SolveState;
+use crate::test_scenes::{held_at_two_sides, move_handle, uneven_sheet};
 
 const ROW: u32 = 13;
 
 /// An uneven sheet held along one side, with a handle on the other that is lifted.
 fn document() -> Document {
-    let at = |x: f64, y: f64| DVec3::new(x, y, 0.9 * (0.7 * x).sin() * (0.5 * y + 0.2).cos() + 0.1 * x);
-    let points = (0..ROW * ROW).map(|v| at(f64::from(v % ROW), f64::from(v / ROW))).collect();
-    let cells = (0..ROW * (ROW - 1)).filter(|v| v % ROW < ROW - 1);
-    let triangles = cells.flat_map(|v| [[v, v + 1, v + ROW + 1], [v, v + ROW + 1, v + ROW]]).collect();
-    let file = MeshFile::from_triangles("sheet", points, triangles);
-    let mut document = Document::new(Arc::new(Model::from_file(file).expect("a good mesh")));
-    for (kind, first) in [(GroupKind::Anchor, 0), (GroupKind::Handle, ROW * (ROW - 1))] {
-        let vertices = (first..first + ROW).map(VertexId).collect();
-        document.apply(Command::Hold { kind, vertices }).expect("they exist");
-    }
+    let mut document = held_at_two_sides(uneven_sheet(ROW), ROW);
     document.apply(Command::FillAll(2)).expect("a good size");
     let method = Method { nodes: 30, ..Method::default() };
     document.apply(Command::SetMethod(method)).expect("in range");
@@ -34,9 +26,7 @@ fn document() -> Document {
 }
 
 fn lift(document: &mut Document, height: f64) {
-    let group = document.scene().groups[1].id;
-    let motion = DAffine3::from_translation(DVec3::new(0.0, -0.3 * height, height));
-    document.apply(Command::Move { group, motion }).expect("finite");
+    move_handle(document, DAffine3::from_translation(DVec3::new(0.0, -0.3 * height, height)));
 }
 
 /// A comparison that counts how often it wakes the window.
