@@ -7,8 +7,8 @@ mod projects;
 
 use std::time::{Duration, Instant};
 
-use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
+use egui_kittest::{Harness, HarnessBuilder};
 use glam::Vec2;
 use pliant::document::{Document, GroupKind};
 use pliant::editor::{EditorApp, NoticeKind, Session};
@@ -23,14 +23,19 @@ pub(crate) type Window = Harness<'static, EditorApp>;
 
 /// The window with the paper's bar (1154 vertices) opened from a file.
 pub(crate) fn window(folder: &std::path::Path) -> Window {
+    let mut window = open_bar(folder, Harness::builder().with_size([1100.0, 720.0]));
+    window.run_steps(3);
+    window
+}
+
+/// The bar in a window of another size or other pixels, as soon as the file is open.
+pub(crate) fn open_bar(folder: &std::path::Path, builder: HarnessBuilder<EditorApp>) -> Window {
     let path = folder.join("bar.obj");
     std::fs::write(&path, shapes::paper_bar().obj()).expect("the sample is written");
-    let mut window: Window = Harness::builder()
-        .with_size([1100.0, 720.0])
+    let mut window: Window = builder
         .wgpu()
         .build_eframe(move |cc| EditorApp::new(cc, vec![path]).unwrap_or_else(|error| panic!("{error}: {NO_ADAPTER}")));
     step_until(&mut window, "the file is open", |session| session.document().is_some());
-    window.run_steps(3);
     window
 }
 

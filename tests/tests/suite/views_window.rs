@@ -1,27 +1,18 @@
 //! Views in the window: keys that change them, legends that say what is shown, twice the pixels.
 
-use std::time::{Duration, Instant};
-
 use egui::{Key, Modifiers};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use pliant::document::{Command, GroupKind};
-use pliant::editor::{ColorBy, Crossings, EditorApp, Session};
-use pliant::solving::SolveState;
+use pliant::editor::{ColorBy, Crossings};
 use pliant_solver::VertexId;
-use pliant_tests::shapes;
 
-type Window = Harness<'static, EditorApp>;
+use crate::editor_window::{Window, open_bar, settle, step_until};
 
 /// The window with the paper's bar held at one end and turned aside at the other.
 fn window(folder: &std::path::Path, pixels_per_point: f32) -> Window {
-    let path = folder.join("bar.obj");
-    std::fs::write(&path, shapes::paper_bar().obj()).expect("the sample is written");
     let builder = Harness::builder().with_size([900.0, 640.0]).with_pixels_per_point(pixels_per_point);
-    let mut window: Window = builder.wgpu().build_eframe(move |cc| {
-        EditorApp::new(cc, vec![path]).unwrap_or_else(|error| panic!("a graphics adapter is needed: {error}"))
-    });
-    step_until(&mut window, "the file is open", |session| session.document().is_some());
+    let mut window = open_bar(folder, builder);
     let session = window.state_mut().session();
     let positions = session.document().expect("open").model().mesh.positions().to_vec();
     let (lo, hi) = positions.iter().fold((f64::MAX, f64::MIN), |(lo, hi), p| (lo.min(p.x), hi.max(p.x)));
@@ -31,28 +22,6 @@ fn window(folder: &std::path::Path, pixels_per_point: f32) -> Window {
     }
     settle(&mut window);
     window
-}
-
-/// Steps the window until `done` says so. A minute is an eternity here: a failure, not a slow machine.
-fn step_until(window: &mut Window, what: &str, done: impl Fn(&Session) -> bool) {
-    let start = Instant::now();
-    loop {
-        window.step();
-        if done(window.state_mut().session()) {
-            return;
-        }
-        assert!(start.elapsed() < Duration::from_secs(60), "waited in vain until {what}");
-        std::thread::sleep(Duration::from_millis(5));
-    }
-}
-
-fn settle(window: &mut Window) {
-    step_until(window, "the surface settles", |session| {
-        let revision = session.document().map(|document| document.revision());
-        session.status.report.as_ref().is_some_and(|report| {
-            Some(report.revision) == revision && matches!(report.state, SolveState::Settled | SolveState::Resting)
-        })
-    });
 }
 
 #[test]

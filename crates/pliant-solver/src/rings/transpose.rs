@@ -18,8 +18,11 @@
 //! the same bits after a repainting as after a new build. They lie in chunks of slots, of which a repainting writes only
 //! those anew that it touches.
 
+mod chunk;
+
 use std::ops::Range;
 
+use chunk::{Chunk, HOLE, MINUS, MINUS_STEP, PLUS, SLOTS, STEP, entry};
 use rayon::prelude::*;
 
 use crate::analysis::Layout;
@@ -28,25 +31,8 @@ use crate::kernels::wide::Wide;
 use crate::rings::neighborhoods::{Changes, Neighborhoods};
 use crate::rings::search::{Batch, SOURCES};
 
-/// Kinds of entries: what is added or subtracted from a slot on, and what is taken from one edge alone.
-const PLUS: usize = 0;
-const MINUS: usize = 1;
-const HOLE: usize = 2;
-const KINDS: usize = 3;
-/// Where in an entry its kind begins, above the vertex. Meshes have fewer than 2³⁰ vertices: their edges alone would
-/// fill a hundred gigabytes.
-const KIND: u32 = 30;
-/// Set in the place of a step that is subtracted.
-const MINUS_STEP: u8 = 1 << 7;
 /// How steps count that are added, and that are subtracted.
 const SIGNS: [f64; 2] = [1.0, -1.0];
-
-/// Entries that are added at once. At r = 10 an edge has some 8 of each sign and, if it is the side of a strip, 14
-/// holes, so that one in nine is empty.
-const STEP: usize = 4;
-
-/// Slots per chunk: as many as a block has, some hundred kilobytes at r = 10.
-const SLOTS: usize = 2048;
 
 /// Slots whose sums are kept at a time: few enough for the first cache.
 pub(crate) const GROUP: usize = 64;
@@ -55,27 +41,6 @@ pub(crate) const GROUP: usize = 64;
 #[cfg_attr(test, derive(PartialEq))]
 pub(crate) struct Transpose {
     chunks: Vec<Chunk>,
-}
-
-/// The ends at [`SLOTS`] consecutive slots.
-#[derive(Clone, PartialEq, Eq, Debug)]
-struct Chunk {
-    /// What is added or subtracted; at least one step per slot.
-    ends: Steps,
-    holes: Steps,
-    /// The number of vertices.
-    nobody: u32,
-}
-
-/// Steps of consecutive slots.
-#[derive(Clone, PartialEq, Eq, Debug)]
-struct Steps {
-    /// Steps of the i-th slot: `steps[offsets[i]..offsets[i + 1]]`.
-    offsets: Vec<u32>,
-    /// Vertices, ascending at each slot and kind, then `nobody`.
-    steps: Vec<[u32; STEP]>,
-    /// The slot of each step in its group, with [`MINUS_STEP`] or without.
-    slot_of: Vec<u8>,
 }
 
 /// Q of the slots of a group.
@@ -196,115 +161,6 @@ impl Transpose {
     }
 }
 
-impl Steps {
-    fn new() -> Steps {
-        Steps { offsets: vec![0], steps: Vec::new(), slot_of: Vec::new() }
-    }
-
-    /// Appends a slot with so many empty steps, some added and then some subtracted.
-    fn push_slot(&mut self, [n_plus, n_minus]: [u32; 2], nobody: u32) {
-        let slot = ((self.offsets.len() - 1) % GROUP) as u8;
-        self.slot_of.extend((0..n_plus).map(|_| slot));
-        self.slot_of.extend((0..n_minus).map(|_| slot | MINUS_STEP));
-        self.steps.resize(self.slot_of.len(), [nobody; STEP]);
-        self.offsets.push(self.slot_of.len() as u32);
-    }
-
-    /// The steps of some slots, with where each belongs.
-    #[inline(always)]
-    fn at(&self, slots: Range<usize>) -> impl Iterator<Item = (&[u32; STEP], u8)> {
-        let steps = self.offsets[slots.start] as usize..self.offsets[slots.end] as usize;
-        self.steps[steps.clone()].iter().zip(self.slot_of[steps].iter().copied())
-    }
-}
-
-impl Chunk {
-    fn entries(&self, i: usize) -> impl Iterator<Item = u32> {
-        let ends = self.ends.at(i..i + 1).map(|(step, slot)| (step, usize::from(slot / MINUS_STEP)));
-        let holes = self.holes.at(i..i + 1).map(|(step, _)| (step, HOLE));
-        ends.chain(holes)
-            .flat_map(|(step, kind)| step.iter().filter(|&&k| k != self.nobody).map(move |&k| entry(k, kind)))
-    }
-
-    /// By how much the number of neighborhoods grows at the i-th slot, and how many do without its edge alone.
-    fn growth(&self, i: usize) -> (i32, i32) {
-        let (mut growth, mut n_holes) = (0, 0);
-        for entry in self.entries(i) {
-            match kind_of(entry) {
-                PLUS => growth += 1,
-                MINUS => growth -= 1,
-                _ => n_holes += 1,
-            }
-        }
-        (growth, n_holes)
-    }
-
-    /// Nobody at any slot, but room for so many of each kind.
-    fn with_room(counts: &[[u32; KINDS]], nobody: u32) -> Chunk {
-        let (mut ends, mut holes) = (Steps::new(), Steps::new());
-        for counts in counts {
-            let [n_plus, n_minus, n_holes] = counts.map(|n| n.div_ceil(STEP as u32));
-            ends.push_slot([n_plus.max(u32::from(n_minus == 0)), n_minus], nobody);
-            holes.push_slot([n_holes, 0], nobody);
-        }
-        for Steps { steps, slot_of, .. } in [&mut ends, &mut holes] {
-            steps.shrink_to_fit();
-            slot_of.shrink_to_fit();
-        }
-        Chunk { ends, holes, nobody }
-    }
-
-    /// The places for entries of each kind at the i-th slot.
-    fn places(&self, i: usize) -> [usize; KINDS] {
-        let first = self.ends.offsets[i] as usize;
-        let n_plus = self.ends.at(i..i + 1).take_while(|&(_, slot)| slot & MINUS_STEP == 0).count();
-        [first, first + n_plus, self.holes.offsets[i] as usize].map(|step| step * STEP)
-    }
-
-    /// Puts an entry where there is a place for it.
-    fn put(&mut self, entry: u32, place: usize) {
-        let steps = if kind_of(entry) == HOLE { &mut self.holes.steps } else { &mut self.ends.steps };
-        steps.as_flattened_mut()[place] = vertex_of(entry);
-    }
-
-    /// A chunk from its ends (slot, entry), those of one slot ascending by vertex.
-    fn of_ends(ends: &[(u32, u32)], nobody: u32) -> Chunk {
-        let place = |slot: u32| slot as usize % SLOTS;
-        let mut counts = vec![[0; KINDS]; SLOTS];
-        for &(slot, entry) in ends {
-            counts[place(slot)][kind_of(entry)] += 1;
-        }
-        let mut chunk = Chunk::with_room(&counts, nobody);
-        let mut next: Vec<[usize; KINDS]> = (0..SLOTS).map(|i| chunk.places(i)).collect();
-        for &(slot, entry) in ends {
-            let at = &mut next[place(slot)][kind_of(entry)];
-            chunk.put(entry, *at);
-            *at += 1;
-        }
-        chunk
-    }
-
-    /// Chunk `c` without the changed vertices, but with their new ends, sorted by slot and entry.
-    fn merged(&self, c: usize, ends: &[(u32, u32)], is_changed: &[bool]) -> Chunk {
-        let mut merged = Vec::with_capacity(self.ends.steps.len() * STEP + ends.len());
-        let mut fresh = ends.iter().peekable();
-        for slot in (c * SLOTS) as u32..((c + 1) * SLOTS) as u32 {
-            for entry in self.entries(slot as usize % SLOTS) {
-                while let Some(&end) = fresh.next_if(|&&(at, fresh)| at == slot && fresh < entry) {
-                    merged.push(end);
-                }
-                if !is_changed[vertex_of(entry) as usize] {
-                    merged.push((slot, entry));
-                }
-            }
-            while let Some(&end) = fresh.next_if(|&&(at, _)| at == slot) {
-                merged.push(end);
-            }
-        }
-        Chunk::of_ends(&merged, self.nobody)
-    }
-}
-
 /// The sum of the matrices of a step.
 #[inline(always)]
 fn sum_of<W: Wide>(wide: W, rotations: NinesRef<'_>, &[a, b, c, d]: &[u32; STEP]) -> (W::Eight, f64) {
@@ -313,18 +169,6 @@ fn sum_of<W: Wide>(wide: W, rotations: NinesRef<'_>, &[a, b, c, d]: &[u32; STEP]
     let one = wide.add8(wide.eight(eights[a].0), wide.eight(eights[b].0));
     let other = wide.add8(wide.eight(eights[c].0), wide.eight(eights[d].0));
     (wide.add8(one, other), (ninths[a] + ninths[b]) + (ninths[c] + ninths[d]))
-}
-
-fn entry(k: u32, kind: usize) -> u32 {
-    k | (kind as u32) << KIND
-}
-
-fn kind_of(entry: u32) -> usize {
-    (entry >> KIND) as usize
-}
-
-fn vertex_of(entry: u32) -> u32 {
-    entry & ((1 << KIND) - 1)
 }
 
 fn n_chunks(layout: &Layout) -> usize {

@@ -5,7 +5,6 @@
 //! through [`Document::accept`] and never make an undo step.
 
 mod commands;
-mod fill;
 mod findings;
 mod group;
 mod grouping;
@@ -25,7 +24,6 @@ mod state;
 mod textures;
 
 pub use commands::{Command, CommandError};
-pub use fill::{region_by_selection, region_of_equal_rigidity, region_of_faces, region_of_part, region_of_piece};
 pub use findings::{Finding, caution, findings};
 pub use group::{ActiveGroups, Group, GroupId, GroupKind, held_by};
 pub use history::{History, Snapshot};
@@ -35,7 +33,10 @@ pub use model::{Model, ModelError};
 pub use motion::{Change, Placement, rotation_of};
 pub use palette::GroupColor;
 pub use poses::{KeptPose, PoseChange, PoseId};
-pub use regions::{Alike, Part, alike, border, grown, inverted, of_parts, of_rigidity, part_of_triangle, rim, shrunk};
+pub use regions::{
+    Alike, Part, alike, border, grown, inverted, of_parts, of_rigidity, part_of_triangle, region_by_selection,
+    region_of_equal_rigidity, region_of_faces, region_of_part, region_of_piece, rim, shrunk,
+};
 pub use scene::Scene;
 pub use selection::{SelectMode, Selection};
 pub use sets::{SetChange, SetId, StoredSet};

@@ -1,9 +1,10 @@
-//! Which vertices belong together: rings around a selection, whole components, equal r, parts of the file.
+//! Which vertices belong together: rings around a selection, whole components, equal r, parts of the file, and what a
+//! fill reaches from a point.
 //!
 //! Everything here takes one pass over the surface, or less, so that it answers at once on a million vertices.
 
 pub use pliant_meshfile::Part;
-use pliant_solver::{Defect, Mesh, VertexId};
+use pliant_solver::{Defect, Mesh, Rigidity, VertexId};
 
 use super::{Model, Scene, Selection};
 
@@ -95,11 +96,7 @@ fn same_value(values: impl Iterator<Item = usize> + Clone, n_values: usize, seed
 
 /// The vertices at the faces of some parts of the file.
 pub fn of_parts<'a>(model: &Model, parts: impl IntoIterator<Item = &'a Part>) -> Selection {
-    let mut flags = vec![false; model.mesh.n_vertices()];
-    for part in parts {
-        model.triangles[part.triangles.clone()].as_flattened().iter().for_each(|&v| flags[v as usize] = true);
-    }
-    Selection::of_flags(&flags)
+    of_faces(model.mesh.n_vertices(), parts.into_iter().flat_map(|part| &model.triangles[part.triangles.clone()]))
 }
 
 /// The part of the file that a triangle belongs to. O(log parts).
@@ -114,4 +111,54 @@ pub fn rim(mesh: &Mesh, vertices: &[VertexId]) -> Vec<VertexId> {
     let is_in = Selection::new(vertices.to_vec()).flags(mesh.n_vertices());
     let is_inner = |&v: &VertexId| mesh.neighbors(v).iter().all(|&w| is_in[w as usize]);
     vertices.iter().copied().filter(|v| !is_inner(v)).collect()
+}
+
+/// The vertices that can be reached from `seed` along edges without leaving its value of r.
+pub fn region_of_equal_rigidity(mesh: &Mesh, rigidity: &Rigidity, seed: VertexId) -> Selection {
+    let r = rigidity.as_slice();
+    flood(mesh, seed, |v| r[v.index()] == r[seed.index()])
+}
+
+/// The vertices that can be reached from `seed` along edges without crossing the edge of the selection, from either side.
+pub fn region_by_selection(mesh: &Mesh, selection: &Selection, seed: VertexId) -> Selection {
+    let is_selected = selection.flags(mesh.n_vertices());
+    flood(mesh, seed, |v| is_selected[v.index()] == is_selected[seed.index()])
+}
+
+/// All vertices that hang together with `seed`.
+pub fn region_of_piece(mesh: &Mesh, seed: VertexId) -> Selection {
+    same_value(mesh.components().iter().map(|&c| c as usize), mesh.n_components(), &[seed])
+}
+
+/// The vertices at the faces that `of_face` puts where it puts `face`.
+pub fn region_of_faces(mesh: &Mesh, of_face: &[u32], face: u32) -> Selection {
+    let Some(&label) = of_face.get(face as usize) else { return Selection::default() };
+    let inside = mesh.triangles().iter().zip(of_face).filter(|&(_, &other)| other == label);
+    of_faces(mesh.n_vertices(), inside.map(|(face, _)| face))
+}
+
+/// The vertices at the faces of the part of the file that holds a triangle.
+pub fn region_of_part(model: &Model, triangle: u32) -> Selection {
+    of_parts(model, part_of_triangle(model, triangle as usize))
+}
+
+fn of_faces<'a>(n_vertices: usize, faces: impl IntoIterator<Item = &'a [u32; 3]>) -> Selection {
+    let mut flags = vec![false; n_vertices];
+    faces.into_iter().flatten().for_each(|&v| flags[v as usize] = true);
+    Selection::of_flags(&flags)
+}
+
+fn flood(mesh: &Mesh, seed: VertexId, belongs: impl Fn(VertexId) -> bool) -> Selection {
+    let mut is_reached = vec![false; mesh.n_vertices()];
+    is_reached[seed.index()] = true;
+    let mut open = vec![seed];
+    while let Some(v) = open.pop() {
+        for &w in mesh.neighbors(v) {
+            if !is_reached[w as usize] && belongs(VertexId(w)) {
+                is_reached[w as usize] = true;
+                open.push(VertexId(w));
+            }
+        }
+    }
+    Selection::of_flags(&is_reached)
 }

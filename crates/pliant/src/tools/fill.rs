@@ -85,7 +85,7 @@ impl Sources {
 impl Region {
     fn at(pick: &Pick, context: &Context<'_>) -> Region {
         let of = Sources::of(context);
-        let mut vertices = reached(pick, context);
+        let mut vertices = reached(pick, context).vertices().to_vec();
         let n = context.surface.frame().positions.len();
         let mut own = vec![false; n];
         vertices.iter().for_each(|v| own[v.index()] = true);
@@ -120,17 +120,17 @@ fn same_part(context: &Context<'_>, a: u32, b: u32) -> bool {
     parts.iter().any(|part| part.triangles.contains(&(a as usize)) && part.triangles.contains(&(b as usize)))
 }
 
-/// Vertices that a click on a picked point reaches, sorted.
-fn reached(pick: &Pick, context: &Context<'_>) -> Vec<VertexId> {
+/// Vertices that a click on a picked point reaches.
+fn reached(pick: &Pick, context: &Context<'_>) -> Selection {
     let (scene, model) = (context.document.scene(), context.document.model());
     let mesh = &model.mesh;
     match context.options.paint.boundary {
-        FillBoundary::Rigidity if scene.selection.contains(pick.vertex) => scene.selection.vertices().to_vec(),
+        FillBoundary::Rigidity if scene.selection.contains(pick.vertex) => scene.selection.clone(),
         FillBoundary::Rigidity => region_of_equal_rigidity(mesh, &scene.rigidity, pick.vertex),
         FillBoundary::Selection => region_by_selection(mesh, &scene.selection, pick.vertex),
         FillBoundary::SharpEdges => match &context.prepared.patches {
             Some(patches) => region_of_faces(mesh, patches.of_face(), pick.triangle),
-            None => Vec::new(),
+            None => Selection::default(),
         },
         FillBoundary::Piece => region_of_piece(mesh, pick.vertex),
         FillBoundary::Part => region_of_part(model, pick.triangle),

@@ -6,10 +6,10 @@ use std::time::{Duration, Instant};
 
 use glam::{DAffine3, DVec3};
 use pliant_meshfile::MeshFile;
-use pliant_solver::{Analysis, LooseComponents, Method as SolverMethod, Minimizer, Rigidity, Start, VertexId, Weights};
+use pliant_solver::{Analysis, LooseComponents, Method as SolverMethod, Minimizer, Rigidity, Start, Weights};
 
 use super::*;
-use crate::document::{Command, Document, GroupKind, Method, Model, held_by};
+use crate::document::{Command, Document, Method, Model, held_by};
 use crate::solving::SolveState;
 use crate::test_scenes::{held_at_two_sides, move_handle, uneven_sheet};
 
