@@ -1,7 +1,7 @@
 //! What a person feels: during a drag on the start sample at mixed r, surfaces a second from the solver and the window's
 //! own work a frame; on 100,000 vertices, the window's work over a minute, and the wait for a surface after a dab of the brush
-//! and after a new handle; on 250,000 and a million, surfaces a second. Run by `cargo bench -p pliant-tests --bench editor`;
-//! needs a graphics adapter for the window. `-- drag`, `-- window`, `-- minute`, `-- waits` or `-- large` runs one part.
+//! and after a new handle; on 250,000 and a million, surfaces a second. Run by `cargo bench -p pliant-tests --bench editor`.
+//! `-- drag`, `-- window`, `-- minute`, `-- waits` or `-- large` runs one part.
 
 #![allow(clippy::print_stdout, reason = "a benchmark prints its figures")]
 
