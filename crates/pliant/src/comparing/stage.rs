@@ -25,7 +25,7 @@ pub const PICTURE_PX: [u32; 2] = [720, 600];
 const DENSITY: f32 = 2.0;
 /// The part of the view that stays free on each side (by eye).
 const MARGIN: f32 = 0.06;
-/// Dots closer to each other on the picture, in points, are one (by eye: apart by more than their outlines).
+/// Cells of the picture that hold one dot each, in points (by eye: wider than a dot with its outline).
 const DOT_SPACING: f32 = 11.0;
 
 /// Where the vertices of a surface are on the stage.
@@ -142,7 +142,8 @@ impl Stage {
         placed
     }
 
-    /// Some of these dots: none covers another in the pictures. Stands once all surfaces are placed.
+    /// One of these dots in each cell of a grid over the pictures, so that they leave something to be seen of what they
+    /// mark. Stands once all surfaces are placed.
     pub fn apart(&self, dots: impl IntoIterator<Item = Dot>) -> Vec<Dot> {
         let (camera, size) = (self.camera(), Vec2::new(PICTURE_PX[0] as f32, PICTURE_PX[1] as f32));
         let mut taken = HashSet::new();

@@ -71,7 +71,9 @@ pub(super) fn draw(
             pictures.painted = Some(png(bench.stage.rigidity(&bench.rest, chosen.rigidity.as_slice(), ramp_max))?);
         }
         if let Ok(bent) = outcome {
-            let scaled = |&energy: &f32| if energy_end > 0.0 { (energy / energy_end).clamp(0.0, 1.0) } else { 0.0 };
+            // Energies are squares: their roots go like what is seen.
+            let scaled =
+                |&energy: &f32| if energy_end > 0.0 { (energy / energy_end).clamp(0.0, 1.0).sqrt() } else { 0.0 };
             let values = bent.strain.iter().map(scaled).collect();
             let shape = png(bench.stage.shape(&bent.placed, &targets, &bent.flaws))?;
             pictures.bent = Some([shape, png(bench.stage.energies(&bent.placed, values))?]);

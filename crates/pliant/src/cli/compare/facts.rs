@@ -11,6 +11,8 @@ use crate::comparing::{Axis, Ruler};
 pub(super) struct Facts {
     pub(super) mesh: MeshCounts,
     pub(super) handles: HandleCounts,
+    /// Of all entries but embedded deformation.
+    pub(super) solver: &'static str,
     pub(super) weights: &'static str,
     pub(super) start: &'static str,
     pub(super) max_iterations: u64,
@@ -132,6 +134,7 @@ impl Facts {
         Facts {
             mesh: MeshCounts::new(&bench.file, &bench.mesh),
             handles: HandleCounts { held: bench.handles.held.len(), moved: bench.moved().count() },
+            solver: options.solving.solver.name(),
             weights: options.solving.weights.name(),
             start: options.solving.start.name(),
             max_iterations: options.solving.max_iterations,

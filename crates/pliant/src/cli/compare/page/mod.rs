@@ -77,7 +77,6 @@ impl Page<'_> {
 
     /// What was asked: the rest shape with its handles, and how rigid it is where that was painted.
     fn start(&self) -> Markup {
-        let Facts { mesh, handles, rest, .. } = self.facts;
         html! {
             section id="start" {
                 h2 { "The task" }
@@ -89,34 +88,43 @@ impl Page<'_> {
                             "All pictures are seen from here."
                         }
                     }
-                    dl.facts {
-                        dt { "Mesh" }
-                        dd {
-                            (count(mesh.surface_points(), "vertex", "vertices")) ", "
-                            (count(mesh.faces(), "triangle", "triangles"))
-                            @if mesh.components() > 1 { ", " (mesh.components()) " separate parts" }
-                        }
-                        dt { "Handles" }
-                        dd {
-                            (count(handles.held, "vertex is held", "vertices are held")) ", "
-                            (if handles.moved == handles.held { "all".to_owned() } else { words::whole(handles.moved) })
-                            " of them away from rest"
-                        }
-                        dt { "Volume" }
-                        dd { @match &rest.no_volume { Some(why) => { "none: " (why) }, None => "the surface is closed" } }
-                        dt { "Self-intersections at rest" }
-                        dd { @if rest.self_intersections == 0 { "none" } @else { (count(rest.self_intersections, "pair of triangles", "pairs of triangles")) } }
-                        dt { "Edge weights" }
-                        dd { (self.facts.weights) }
-                        dt { "Start" }
-                        dd { (words::start(self.facts.start)) }
-                        dt { "End" }
-                        dd { (words::end(self.facts)) }
+                    div {
+                        (self.setting())
+                        @if self.pictures.entries.iter().any(|pictures| pictures.painted.is_some()) { (self.painted()) }
                     }
                 }
-                @if self.pictures.entries.iter().any(|pictures| pictures.painted.is_some()) {
-                    (self.painted())
+            }
+        }
+    }
+
+    fn setting(&self) -> Markup {
+        let Facts { mesh, handles, rest, .. } = self.facts;
+        html! {
+            dl.facts {
+                dt { "Mesh" }
+                dd {
+                    (count(mesh.surface_points(), "vertex", "vertices")) ", "
+                    (count(mesh.faces(), "triangle", "triangles"))
+                    @if mesh.components() > 1 { ", " (mesh.components()) " separate parts" }
                 }
+                dt { "Handles" }
+                dd {
+                    (count(handles.held, "vertex is held", "vertices are held")) ", "
+                    (if handles.moved == handles.held { "all".to_owned() } else { words::whole(handles.moved) })
+                    " of them away from rest"
+                }
+                dt { "Volume" }
+                dd { @match &rest.no_volume { Some(why) => { "none: " (why) }, None => "the surface is closed" } }
+                dt { "Self-intersections at rest" }
+                dd { @if rest.self_intersections == 0 { "none" } @else { (count(rest.self_intersections, "pair of triangles", "pairs of triangles")) } }
+                dt { "Edge weights" }
+                dd { (words::weights(self.facts.weights)) }
+                dt { "Search" }
+                dd { (words::solver(self.facts.solver)) }
+                dt { "Start" }
+                dd { (words::start(self.facts.start)) }
+                dt { "End" }
+                dd { (words::end(self.facts)) }
             }
         }
     }
@@ -125,7 +133,7 @@ impl Page<'_> {
         html! {
             h3 { "Rigidity" }
             p { "How many rings of edges around each vertex move as one piece." }
-            div.grid {
+            div.grid.small {
                 @for (k, png) in self.each(|pictures| pictures.painted.as_ref()) {
                     figure {
                         (picture(png, &format!("Rigidity on the rest shape: {}", self.title(k))))
@@ -236,7 +244,10 @@ impl Page<'_> {
         html! {
             section id="strain" {
                 h2 { "Where it is strained" }
-                p { "The common energy of each vertex, on one scale for all: the lighter, the further its surroundings are from being only moved and turned." }
+                p {
+                    "The common energy of each vertex, on one scale for all: the lighter, the further its surroundings are from "
+                    "being only moved and turned. Colors follow the square root of the energy, as lengths do."
+                }
                 div.grid {
                     @for (k, [_, strain]) in self.each(|pictures| pictures.bent.as_ref()) {
                         figure {
@@ -262,6 +273,7 @@ impl Page<'_> {
                 p {
                     "How far the energy that each method lowers is above where it ended, after each iteration. Iterations of "
                     "different methods cost different times: see the table."
+                    @if self.facts.start == "auto" { " The first iteration is the one after the search for a good start." }
                 }
                 figure.wide {
                     (convergence(&curves))
@@ -275,7 +287,7 @@ impl Page<'_> {
         let axes = &self.facts.axes;
         let grid = |shares: fn(&super::facts::Measured) -> &[f64], histogram: &Histogram| {
             html! {
-                div.grid.narrow {
+                div.grid {
                     @for (k, result) in (0..self.facts.entries.len()).filter_map(|k| Some((k, self.result(k)?))) {
                         figure {
                             (histogram.draw(k, shares(result), &self.title(k)))

@@ -141,8 +141,16 @@ impl Histogram {
 
     /// Degrees up to `end`.
     pub(super) fn bending(end: f64) -> Histogram {
-        let tick = |part: f64| (part, format!("{}°", number_of(end * part)));
-        Histogram { ticks: [0.0, 0.25, 0.5, 0.75, 1.0].map(tick).into(), unit: "change of the angle" }
+        // Into parts that are round numbers of degrees.
+        let parts = match end {
+            45.0.. => 3,
+            5.0..=10.0 => 5,
+            _ => 4,
+        };
+        let tick = |k: u32| {
+            (f64::from(k) / f64::from(parts), format!("{}°", number_of(end * f64::from(k) / f64::from(parts))))
+        };
+        Histogram { ticks: (0..=parts).map(tick).collect(), unit: "change of the angle" }
     }
 
     /// Bars for parts of the whole, on a logarithmic scale.

@@ -21,6 +21,21 @@ pub(super) fn title(entry: &EntryFacts, file: Option<&str>) -> String {
     }
 }
 
+pub(super) fn weights(name: &str) -> &'static str {
+    match name {
+        "cotangent" => "cotangents as they are",
+        "uniform" => "1 for every edge",
+        _ => "cotangents, slivers and negative ones tamed",
+    }
+}
+
+pub(super) fn solver(name: &str) -> &'static str {
+    match name {
+        "local-global" => "local and global steps in turn (embedded: Gauss–Newton)",
+        _ => "L-BFGS over local and global steps (embedded: Gauss–Newton)",
+    }
+}
+
 pub(super) fn start(name: &str) -> &'static str {
     match name {
         "rest" => "every rotation the identity",
