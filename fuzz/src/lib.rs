@@ -1,5 +1,8 @@
 //! What all fuzz targets do with an input.
 
+#[cfg(feature = "project")]
+mod project;
+
 use pliant_hostile::exercise;
 use pliant_meshfile::Format;
 use std::cell::OnceCell;
@@ -7,6 +10,15 @@ use tempfile::TempDir;
 
 thread_local! {
     static FOLDER: OnceCell<TempDir> = const { OnceCell::new() };
+}
+
+/// Opens an input as a project.
+#[cfg(feature = "project")]
+pub fn opens_or_refuses_project(bytes: &[u8]) {
+    FOLDER.with(|folder| {
+        let folder = folder.get_or_init(|| exercise::scratch().expect("a temporary folder"));
+        project::opens_or_refuses(bytes, folder.path());
+    });
 }
 
 /// Opens an input and does everything with it that the program does.

@@ -14,10 +14,14 @@ use std::process::ExitCode;
 
 fn main() -> ExitCode {
     let Some(folder) = std::env::args_os().nth(1).map(PathBuf::from) else {
-        eprintln!("usage: guide FOLDER");
+        eprintln!("usage: guide FOLDER [SCENE…]");
         return ExitCode::FAILURE;
     };
-    match guide::bars::make(&folder).and_then(|()| guide::scenes::make(&folder)) {
+    let wanted: Vec<String> = std::env::args().skip(2).collect();
+    let is_wanted = |name: &str| wanted.is_empty() || wanted.iter().any(|other| other == name);
+    let bars = if is_wanted("bars") { guide::bars::make(&folder) } else { Ok(()) };
+    let scenes = guide::scenes::SCENES.iter().filter(|(name, _)| is_wanted(name));
+    match bars.and_then(|()| scenes.map(|(_, scene)| scene).try_for_each(|scene| scene(&folder))) {
         Ok(()) => ExitCode::SUCCESS,
         Err(why) => {
             eprintln!("error: {why}");

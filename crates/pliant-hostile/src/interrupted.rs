@@ -1,12 +1,13 @@
 //! Savings that are stopped at every call to the system, or have a call fail: what is on the disk afterwards.
 //!
 //! A saving runs in a process of its own, between two marks in its trace. What it leaves must open as the old set of
-//! files or as the new one, to the last number; the next saving must come to the new set and leave nothing behind.
+//! files or as the new one, to the last number; the next saving must come to the new set and leave nothing behind. Projects
+//! are one file of bytes that is replaced whole.
 
 use crate::crafted::{glb_of, sound_document};
 use crate::{exercise, strace};
 use glam::DVec3;
-use pliant_meshfile::{MeshFile, open};
+use pliant_meshfile::{MeshFile, SaveError, open, replace_file};
 use serde_json::Value;
 use std::collections::HashMap;
 use std::io::{Error, Result};
@@ -36,14 +37,28 @@ const SCENARIOS: &[Scenario] = &[
     Scenario { name: "glTF with a buffer beside it", file: "model.gltf", replaced: false },
     Scenario { name: "PLY", file: "model.ply", replaced: false },
     Scenario { name: "STL with its sidecar", file: "model.stl", replaced: false },
+    Scenario { name: "project", file: PROJECT, replaced: false },
 ];
 
-/// What a set of files opens as: places, r, colors of parts.
-type Look = (Vec<DVec3>, Option<Vec<u16>>, Vec<[f32; 4]>);
+/// Replaced as projects are: how is known to the editor alone.
+const PROJECT: &str = "model.pliant";
+/// Its pieces after the saving: more than one buffer full.
+const PIECES: [(u8, usize); 3] = [(1, 20), (2, 40_000), (3, 7)];
+
+/// What a set of files opens as: places, r, colors of parts; or the bytes of a project.
+type Look = (Vec<DVec3>, Option<Vec<u16>>, Vec<[f32; 4]>, Vec<u8>);
 
 fn look(mesh: &Path) -> std::result::Result<Look, String> {
+    if mesh.ends_with(PROJECT) {
+        let bytes = std::fs::read(mesh).map_err(|error| error.to_string())?;
+        return Ok((Vec::new(), None, Vec::new(), bytes));
+    }
     let file = open(mesh).map_err(|error| error.to_string())?;
-    Ok((file.positions, file.rigidity, file.parts.iter().map(|part| part.base_color).collect()))
+    Ok((file.positions, file.rigidity, file.parts.iter().map(|part| part.base_color).collect(), Vec::new()))
+}
+
+fn save_project(to: &Path) -> std::result::Result<(), SaveError> {
+    replace_file(to, |file| PIECES.iter().try_for_each(|&(byte, n)| file.write_all(&vec![byte; n])))
 }
 
 /// How a run went.
@@ -76,6 +91,12 @@ pub fn run(program: &Path) -> Result<Report> {
 pub fn save(index: usize, folder: &Path) -> std::result::Result<(), String> {
     let scenario = SCENARIOS.get(index).ok_or("there is no such scenario")?;
     let target = folder.join(scenario.file);
+    if scenario.file == PROJECT {
+        let _ = std::fs::metadata(MARKS[0]);
+        let saved = save_project(&target);
+        let _ = std::fs::metadata(MARKS[1]);
+        return saved.map_err(|error| error.to_string());
+    }
     let source = if scenario.replaced { folder.join("other.glb") } else { target.clone() };
     let file = open(&source).map_err(|error| error.to_string())?;
     let (points, rigidity) = edited(&file);
@@ -198,8 +219,8 @@ impl<'a> Stand<'a> {
         match look(&mesh) {
             Err(error) => return complain(format!("does not open: {error}")),
             Ok(found) if !allowed.contains(&&found) => {
-                let of = |look: &Look| [found.0 == look.0, found.1 == look.1, found.2 == look.2];
-                return complain(format!("places, r, colors: old {:?}, new {:?}", of(&self.old), of(&self.new)));
+                let of = |look: &Look| [found.0 == look.0, found.1 == look.1, found.2 == look.2, found.3 == look.3];
+                return complain(format!("places, r, colors, bytes: old {:?}, new {:?}", of(&self.old), of(&self.new)));
             }
             Ok(_) => {}
         }
@@ -212,11 +233,11 @@ impl<'a> Stand<'a> {
         for path in hidden() {
             let _ = std::fs::File::open(path).and_then(|file| file.set_modified(long_ago));
         }
-        let again = open(&mesh).map_err(|error| error.to_string()).and_then(|file| {
-            let (points, rigidity) = edited(&file);
-            file.save(&mesh, &points, Some(&rigidity)).map_err(|error| error.to_string())
-        });
-        if let Err(error) = again {
+        let save_again = || match self.scenario.file {
+            PROJECT => save_project(&mesh).map_err(|error| error.to_string()),
+            _ => save_mesh_again(&mesh),
+        };
+        if let Err(error) = save_again() {
             return complain(format!("cannot be saved again: {error}"));
         }
         let left = hidden();
@@ -226,11 +247,20 @@ impl<'a> Stand<'a> {
     }
 }
 
+fn save_mesh_again(mesh: &Path) -> std::result::Result<(), String> {
+    let file = open(mesh).map_err(|error| error.to_string())?;
+    let (points, rigidity) = edited(&file);
+    file.save(mesh, &points, Some(&rigidity)).map(drop).map_err(|error| error.to_string())
+}
+
 /// The files of a scenario before its saving.
 fn lay_out(scenario: Scenario, folder: &Path) -> std::result::Result<(), String> {
     let text = |error: std::io::Error| error.to_string();
     let (mut document, binary) = sound_document();
     let target = folder.join(scenario.file);
+    if scenario.file == PROJECT {
+        return std::fs::write(&target, vec![9; 500]).map_err(text);
+    }
     if scenario.file.ends_with(".gltf") {
         document["buffers"][0]["uri"] = "model.bin".into();
         std::fs::write(folder.join("model.bin"), &binary).map_err(text)?;

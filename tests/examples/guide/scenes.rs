@@ -2,34 +2,32 @@
 
 use std::path::Path;
 
-use egui::{Key, Modifiers, Pos2, pos2};
+use egui::{Key, Modifiers, Pos2, pos2, vec2};
 use pliant::editor::Sample;
 use pliant::tools::SelectShape;
 
-use super::stage::Stage;
+use super::stage::{COMMON, Stage};
 
 /// The raised hand of the creature, as the camera frames the sample, and the way it is pulled.
 const HAND: Pos2 = pos2(423.0, 284.0);
 const PULLED: Pos2 = pos2(520.0, 200.0);
 
-/// Writes the pictures of the window.
-pub(crate) fn make(folder: &Path) -> Result<(), String> {
-    bend_and_paint(folder)?;
-    select(folder)?;
-    fill(folder)?;
-    pose(folder)?;
-    compare(folder)
-}
+/// Makes some pictures in a folder.
+type Scene = fn(&Path) -> Result<(), String>;
+
+/// What can be asked for by name.
+pub(crate) const SCENES: &[(&str, Scene)] =
+    &[("window", bend_and_paint), ("selecting", select), ("fill", fill), ("poses", pose), ("compare", compare)];
 
 fn bend_and_paint(folder: &Path) -> Result<(), String> {
-    let mut stage = Stage::new(Sample::Creature);
+    let mut stage = Stage::new(Sample::Creature, COMMON);
     stage.key(Modifiers::NONE, Key::H);
     stage.drag(&[HAND, PULLED]);
     stage.settle();
     stage.keep(&folder.join("window.png"))?;
     let ctrl_shift = Modifiers { shift: true, ..Modifiers::COMMAND };
     stage.key(ctrl_shift, Key::P);
-    stage.type_text("sel");
+    stage.type_text("pose");
     stage.keep(&folder.join("palette.png"))?;
     stage.key(Modifiers::NONE, Key::Escape);
     stage.key(Modifiers::NONE, Key::F1);
@@ -45,7 +43,7 @@ fn bend_and_paint(folder: &Path) -> Result<(), String> {
 
 /// The head is selected, and a lasso is on its way around a hand.
 fn select(folder: &Path) -> Result<(), String> {
-    let mut stage = Stage::new(Sample::Creature);
+    let mut stage = Stage::new(Sample::Creature, COMMON);
     stage.key(Modifiers::NONE, Key::S);
     stage.session().options.select_shape = SelectShape::Lasso;
     stage.drag(&lasso(pos2(352.0, 215.0), 75.0, 1.0));
@@ -61,7 +59,7 @@ fn lasso(center: Pos2, radius: f32, part: f32) -> Vec<Pos2> {
 }
 
 fn fill(folder: &Path) -> Result<(), String> {
-    let mut stage = Stage::new(Sample::Creature);
+    let mut stage = Stage::new(Sample::Creature, COMMON);
     stage.key(Modifiers::NONE, Key::G);
     stage.key(Modifiers::NONE, Key::Num1);
     let from = pos2(365.0, 345.0);
@@ -72,11 +70,12 @@ fn fill(folder: &Path) -> Result<(), String> {
 }
 
 fn pose(folder: &Path) -> Result<(), String> {
-    let mut stage = Stage::new(Sample::Creature);
+    let mut stage = Stage::new(Sample::Creature, COMMON);
     stage.key(Modifiers::NONE, Key::K);
     stage.key(Modifiers::NONE, Key::H);
-    let mut from = HAND;
-    for to in [PULLED, pos2(500.0, 330.0)] {
+    // Above the strip everything is a little smaller.
+    let mut from = pos2(405.0, 222.0);
+    for to in [pos2(480.0, 150.0), pos2(470.0, 290.0)] {
         stage.drag(&[from, to]);
         stage.settle();
         stage.key(Modifiers::NONE, Key::K);
@@ -87,12 +86,13 @@ fn pose(folder: &Path) -> Result<(), String> {
 }
 
 fn compare(folder: &Path) -> Result<(), String> {
-    let mut stage = Stage::new(Sample::Creature);
+    // Room for six panes and what stands below them.
+    let mut stage = Stage::new(Sample::Creature, vec2(1320.0, 880.0));
     stage.key(Modifiers::NONE, Key::H);
-    stage.drag(&[HAND, PULLED]);
+    stage.drag(&[pos2(628.0, 393.0), pos2(767.0, 272.0)]);
     stage.settle();
     stage.key(Modifiers::NONE, Key::C);
     stage.until("all methods settle", |session| session.compare().is_some_and(|compare| compare.is_settled()));
-    stage.hover(pos2(300.0, 20.0));
+    stage.hover(pos2(900.0, 16.0));
     stage.keep(&folder.join("compare.png"))
 }

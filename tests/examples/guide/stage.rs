@@ -11,13 +11,16 @@ use image::imageops::{FilterType, resize};
 use pliant::editor::{EditorApp, Job, Sample, Session};
 use pliant::solving::SolveState;
 
-/// Size of the window in points, and of the pictures in pixels: a page's width.
-const SIZE: Vec2 = Vec2::new(960.0, 640.0);
+/// Size of most windows in points.
+pub(crate) const COMMON: Vec2 = Vec2::new(960.0, 640.0);
+/// Width of the pictures in pixels: a page's.
+const WIDTH: f32 = 960.0;
 /// Pixels drawn for one that is kept, along a side: enough for the grain to go.
 const FINER: u32 = 3;
-/// Colors of a picture, and how thoroughly they are chosen (1 is best, 30 quickest): 256 keep a picture to a third of its
-/// bytes, and are not told from all.
-const COLORS: usize = 256;
+/// Colors of a picture, the first number that keeps it within so many bytes, and how thoroughly they are chosen (1 is best,
+/// 30 quickest): 256 keep a picture to a third of its bytes, and are not told from all.
+const COLORS: [usize; 3] = [256, 128, 64];
+const BYTES: usize = 120_000;
 const SAMPLING: i32 = 3;
 
 /// The window.
@@ -25,8 +28,9 @@ pub(crate) struct Stage(Harness<'static, EditorApp>);
 
 impl Stage {
     /// With a sample open, seen from the front.
-    pub(crate) fn new(sample: Sample) -> Stage {
-        let harness = Harness::builder().with_size(SIZE).with_pixels_per_point(FINER as f32).wgpu();
+    pub(crate) fn new(sample: Sample, size: Vec2) -> Stage {
+        let pixels_per_point = FINER as f32 * WIDTH / size.x;
+        let harness = Harness::builder().with_size(size).with_pixels_per_point(pixels_per_point).wgpu();
         let app = harness.build_eframe(|cc| EditorApp::new(cc, Vec::new()).expect("a graphics adapter"));
         let mut stage = Stage(app);
         stage.until("the start sample is open", |session| session.document().is_some());
@@ -130,18 +134,26 @@ impl Stage {
 pub(crate) fn keep(drawn: &RgbaImage, finer: u32, file: &Path) -> Result<(), String> {
     let (width, height) = drawn.dimensions();
     let small = resize(drawn, width / finer, height / finer, FilterType::Triangle);
-    write(&small, file).map_err(|error| format!("{}: {error}", file.display()))
+    let mut bytes = Vec::new();
+    for colors in COLORS {
+        bytes = encoded(&small, colors).map_err(|error| error.to_string())?;
+        if bytes.len() <= BYTES {
+            break;
+        }
+    }
+    std::fs::write(file, bytes).map_err(|error| format!("{}: {error}", file.display()))
 }
 
-/// Writes an opaque picture with a palette.
-fn write(picture: &RgbaImage, file: &Path) -> Result<(), png::EncodingError> {
-    let quantizer = NeuQuant::new(SAMPLING, COLORS, picture.as_raw());
+/// An opaque picture with a palette.
+fn encoded(picture: &RgbaImage, colors: usize) -> Result<Vec<u8>, png::EncodingError> {
+    let quantizer = NeuQuant::new(SAMPLING, colors, picture.as_raw());
     let indices: Vec<u8> = picture.pixels().map(|pixel| quantizer.index_of(&pixel.0) as u8).collect();
-    let out = std::io::BufWriter::new(std::fs::File::create(file)?);
-    let mut encoder = png::Encoder::new(out, picture.width(), picture.height());
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, picture.width(), picture.height());
     encoder.set_color(png::ColorType::Indexed);
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_palette(quantizer.color_map_rgb());
     encoder.set_compression(png::Compression::High);
-    encoder.write_header()?.write_image_data(&indices)
+    encoder.write_header()?.write_image_data(&indices)?;
+    Ok(bytes)
 }

@@ -13,6 +13,7 @@ mod learn_command;
 mod learning;
 mod paper_figures;
 mod process;
+mod project_damage;
 mod refusals;
 mod reports;
 mod shaders;
