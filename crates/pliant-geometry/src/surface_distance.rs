@@ -63,8 +63,8 @@ impl SurfaceDistance {
         }
     }
 
-    /// Vertices within `radius` of a point inside triangle `triangle` (its position given), with their distance, nearest
-    /// first. Reaches only what hangs together with the triangle. `positions` and `triangles` have the lengths given to
+    /// Vertices within `radius` of a point inside triangle `triangle` (its position given), with their distance, in
+    /// no order. Reaches only what hangs together with the triangle. `positions` and `triangles` have the lengths given to
     /// [`new`](Self::new); a triangle that is absent gives nothing. The cost grows with the number of vertices
     /// returned, not with the mesh.
     pub fn within(
@@ -208,9 +208,7 @@ impl Question {
 
     fn answer(&self, radius: f32) -> Vec<(u32, f32)> {
         let found = self.touched.iter().map(|&v| (v, self.marks[v as usize].distance as f32));
-        let mut found: Vec<(u32, f32)> = found.filter(|&(_, d)| d <= radius).collect();
-        found.sort_unstable_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)));
-        found
+        found.filter(|&(_, d)| d <= radius).collect()
     }
 }
 

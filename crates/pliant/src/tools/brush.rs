@@ -107,7 +107,7 @@ fn cover(px: Vec2, context: &mut Context<'_>) -> Vec<VertexId> {
 
 fn along_surface(pick: &Pick, context: &mut Context<'_>) -> Vec<VertexId> {
     let radius = radius_at(pick, context);
-    context.surface.within(pick, radius).iter().map(|&(v, _)| VertexId(v)).collect()
+    context.surface.within(pick, radius)
 }
 
 fn faces_eye(v: VertexId, context: &Context<'_>) -> bool {

@@ -51,7 +51,7 @@ pub(super) fn covered(pick: &Pick, radius: f32, context: &mut Context<'_>) -> Ve
         Projection::Orthographic => context.view.camera.forward().dot(normal) <= 0.0,
     };
     let side = faces_eye(pick.position, pick.normal);
-    let mut covered: Vec<VertexId> = context.surface.within(pick, radius).iter().map(|&(v, _)| VertexId(v)).collect();
+    let mut covered = context.surface.within(pick, radius);
     let frame = context.surface.frame();
     covered.retain(|v| match (frame.positions.get(v.index()), frame.normals.get(v.index())) {
         (Some(&position), Some(&normal)) => faces_eye(position, normal) == side,

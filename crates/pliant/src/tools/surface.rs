@@ -138,9 +138,11 @@ impl Surface {
         )
     }
 
-    /// Vertices within `radius` of a picked point along the surface, with their distance.
-    pub fn within(&mut self, pick: &Pick, radius: f32) -> Vec<(u32, f32)> {
-        self.distance.within(&self.frame.positions, &self.triangles, pick.triangle, pick.position, radius)
+    /// Vertices within `radius` of a picked point along the surface, in no order.
+    pub fn within(&mut self, pick: &Pick, radius: f32) -> Vec<VertexId> {
+        let Pick { triangle, position, .. } = *pick;
+        let found = self.distance.within(&self.frame.positions, &self.triangles, triangle, position, radius);
+        found.into_iter().map(|(v, _)| VertexId(v)).collect()
     }
 
     /// A front that leaves a picked point and can be sent on as far as needed.
