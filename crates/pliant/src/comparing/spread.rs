@@ -11,7 +11,7 @@ pub struct Ruler {
     is_signed: bool,
 }
 
-/// Ratios of length that an axis of [`Ruler::STRETCH`] may end at, as in the editor's legend.
+/// Ratios of length that an axis of [`Ruler::stretch`] may end at, as in the editor's legend.
 const RATIOS: [f64; 9] = [1.02, 1.05, 1.1, 1.2, 1.5, 2.0, 3.0, 5.0, 10.0];
 
 /// Their logarithms.
