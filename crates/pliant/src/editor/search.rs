@@ -11,6 +11,8 @@ const IN_A_ROW: i32 = 8;
 const ELSEWHERE: i32 = 1;
 /// What a letter in the tooltip counts, where whole words are looked for: less than the worst hit in a label.
 const IN_TOOLTIP: i32 = -1000;
+/// What an action that can do nothing now is put back by: behind one as well named, before others.
+const BLOCKED: i32 = 30;
 
 /// Actions that `query` may mean, the likeliest first; without a query the recent ones, then all in the order of menus.
 pub fn find_actions(query: &str, session: &Session) -> Vec<Action> {
@@ -22,17 +24,18 @@ pub fn find_actions(query: &str, session: &Session) -> Vec<Action> {
         return all;
     }
     let mut found: Vec<(i32, Action)> =
-        all.into_iter().filter_map(|action| Some((score_of(&query, action)?, action))).collect();
+        all.into_iter().filter_map(|action| Some((score_of(&query, action, session)?, action))).collect();
     // Stable: among equals the recent ones stay first.
     found.sort_by_key(|(score, _)| -score);
     found.into_iter().map(|(_, action)| action).collect()
 }
 
-fn score_of(query: &str, action: Action) -> Option<i32> {
+fn score_of(query: &str, action: Action, session: &Session) -> Option<i32> {
     let label = action.label().to_lowercase();
     let whole = action.full_name().to_lowercase();
     let by_name = score(query, &label).into_iter().chain(score(query, &whole).map(|score| score - 5)).max();
-    by_name.or_else(|| action.tooltip().to_lowercase().contains(query).then_some(IN_TOOLTIP))
+    let score = by_name.or_else(|| action.tooltip().to_lowercase().contains(query).then_some(IN_TOOLTIP))?;
+    Some(if action.obstacle(session).is_some() { score - BLOCKED } else { score })
 }
 
 /// How well the letters of `query` are found in `text`, both lowercase; `None` if they are not, in this order.
@@ -62,6 +65,8 @@ fn score(query: &str, text: &str) -> Option<i32> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::editor::Opened;
+    use crate::test_scenes::flat_sheet;
 
     #[test]
     fn letters_are_found_in_their_order_only() {
@@ -87,6 +92,17 @@ mod tests {
         ] {
             assert_eq!(find_actions(query, &session).first(), Some(&expected), "{query}");
         }
+    }
+
+    #[test]
+    fn what_can_be_done_comes_before_what_cannot() {
+        let mut session = Session::new(|| {}).expect("a solver thread");
+        session.show(Opened::new(flat_sheet(4).model().clone()), None);
+        let found = find_actions("pose", &session);
+        assert_eq!(found[0].obstacle(&session), None, "{}", found[0].label());
+        let undo = find_actions("undo", &session);
+        assert_eq!(undo[0], Action::UNDO, "a name that fits comes first all the same");
+        assert!(Action::UNDO.obstacle(&session).is_some());
     }
 
     #[test]
