@@ -7,7 +7,7 @@ use super::{Action, Session};
 
 /// What a letter counts, by where it is found. Only their order matters; by trial on all labels.
 const AT_WORD: i32 = 12;
-const IN_A_ROW: i32 = 8;
+const IN_A_ROW: i32 = 13;
 const ELSEWHERE: i32 = 1;
 /// What a letter in the tooltip counts, where whole words are looked for: less than the worst hit in a label.
 const IN_TOOLTIP: i32 = -1000;
@@ -75,6 +75,11 @@ mod tests {
         assert!(score("save", "save as…").is_some());
         assert!(score("", "undo").is_none());
         assert!(score("x", "").is_none());
+    }
+
+    #[test]
+    fn a_word_in_one_piece_counts_more_than_letters_of_two() {
+        assert!(score("pose", "keep pose") > score("pose", "move pose earlier"));
     }
 
     #[test]
