@@ -25,7 +25,7 @@ const SLOW_MS: f64 = 1000.0 / 60.0;
 /// What a report tells anew.
 #[derive(Clone, Copy, PartialEq)]
 enum Told {
-    /// Where the surface is.
+    /// Where the surface is; energies and measures are those of the iteration before.
     Surface,
     /// And what was measured on it.
     All,
